@@ -56,8 +56,7 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches};
 use kinetostat_machining::Watch;
 
-use crate::command_line::negative_numbers::{no_number, plain_numbers};
-use crate::command_line::{Cli, Command};
+use crate::command_line::{Cli, Command, no_number, plain_numbers};
 use crate::files::journal;
 use crate::ui::failure::{self, Answer, Code};
 use crate::ui::given::Given;

@@ -5,7 +5,6 @@
 //! and deflection on a grid of places.
 
 mod arm_joints;
-mod bounds;
 mod checks;
 mod cut;
 mod field;
@@ -33,7 +32,6 @@ mod watch;
 mod weight_correction;
 
 pub use arm_joints::ArmJoints;
-pub use bounds::{Bounds, ToolGiven};
 pub use checks::correction::odd_correction;
 pub use checks::displacement::{folds, folds_at, is_large};
 pub use checks::load::{large_load, unusual_load};
@@ -69,8 +67,8 @@ pub use kinetostat::number;
 pub use limits::{Beyond, Limit, Limits};
 pub use load::along_path::LoadAlongPath;
 pub use load::law::{CornerLoad, CuttingLoad, LoadAxes, ProgramLoad};
+pub use load::law::{Tool, straight_tool};
 pub use load::ramp_findings::{LoadBegins, LoadRamp};
-pub use load::tool::{Tool, straight_tool};
 pub use map::{
     Entry, EvaluationRoom, Evaluator, Grid, MAP_BLOCK, MapPlace, MapTask, Outcome, PlaceState,
     VARIABLES, Variable, Width, Worse, map,
@@ -111,12 +109,13 @@ pub use run::cutting::{cut_places, cutting_result};
 pub use run::look_at_part::look_at_part;
 pub use run::merged::MergedRun;
 pub use run::movable::{MovableProgram, Reach};
-pub use run::of_whole::OfWhole;
 pub use run::places::wrenches_at;
+pub use run::preparation::OfWhole;
 pub use run::preparation::with_model_field;
 pub use run::refused_question::refused_question;
 pub use run::summary::feed_arcs;
 pub use table::{FieldCorrection, correct_by_field, wide_table};
+pub use task::{Bounds, ToolGiven};
 pub use task::{NoMotion, RunError, Task};
 pub use verify::{
     Condition, ExtraCut, Matched, OtherCondition, RapidElsewhere, Turned, Uncut, Verified,

@@ -10,7 +10,6 @@ mod answer;
 mod evaluate;
 mod maps;
 mod objective;
-mod obstacle;
 mod refine;
 mod search;
 mod sensitivity;
@@ -21,8 +20,8 @@ pub use answer::{
     Candidate, Evaluated, Finding, MapPanel, Nowhere, Placed, Sensitivity, SideSensitivity,
 };
 pub use evaluate::Question;
+pub use evaluate::{Obstacle, PartBox};
 pub use objective::Objective;
-pub use obstacle::{Obstacle, PartBox};
 pub use search::{Effort, place};
 pub use space::{Fixture, Place, Range, Space, SpaceError, Variable};
 pub use value::{Refusal, Value, Why};

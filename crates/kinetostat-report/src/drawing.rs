@@ -9,11 +9,10 @@ mod lines;
 mod order;
 mod paint;
 mod parts;
-mod request;
 mod scene;
 mod symbol;
 #[cfg(test)]
 mod tests;
 mod view;
 
-pub use request::{Drawing, Magnified, Moved, Placed, View};
+pub use lines::{Drawing, Magnified, Moved, Placed, View};

@@ -33,7 +33,6 @@ mod file;
 mod linear;
 mod machine;
 mod near_drawing;
-mod sensitivity;
 mod statistics;
 mod study;
 mod uncertain;
@@ -45,7 +44,6 @@ pub use draws::{Draws, MOST_DRAWS, REPLICATES};
 pub use file::{CUTTING_PARTS, SharedNumber, Source, UncertaintyFile};
 pub use linear::{ENOUGH, Linear, NOTHING, linear, linear_points, nonlinearity};
 pub use machine::{DependsOnMachine, Quantity, Room, TaskError, UncertainMachine};
-pub use sensitivity::{MOST_MISSING, SobolIndex, design_row, design_rows, sobol_indices};
 pub use statistics::{
     CONFIDENCE, Estimate, Quantile, SHARES, Summary, mean_and_deviation, quantile,
 };
@@ -53,4 +51,5 @@ pub use study::{
     Failures, MOST_NUMBERS, OutputAnswer, Samples, TooManyNumbers, Verdict, answers, can_be_kept,
     linearised, monte_carlo, sample, sobol,
 };
+pub use study::{MOST_MISSING, SobolIndex, design_row, design_rows, sobol_indices};
 pub use uncertain::{Contradiction, Uncertain, Uncertainties};

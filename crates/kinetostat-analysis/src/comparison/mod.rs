@@ -6,17 +6,15 @@
 
 mod fit;
 mod mapping;
-mod postures;
-mod stiffness;
 
-use kinetostat::{Mechanism, MotionKind, Pose};
+use kinetostat::spatial::{shift_matrix, turn_matrix};
+use kinetostat::{Mechanism, MotionKind, Pose, PostureRequest, UnloadedStiffness};
+use nalgebra::Matrix6;
+
+use crate::comparison::fit::Fit;
+use crate::forward::ForwardKinematics;
 
 pub use mapping::Mapping;
-pub use stiffness::StiffnessComparison;
-
-use crate::forward::ForwardKinematics;
-use fit::Fit;
-use postures::{home, kinds, postures};
 
 /// Below this share of the machine's size two models are the same.
 const SAME: f64 = 1e-7;
@@ -71,11 +69,10 @@ pub enum ComparisonError {
 /// # Errors
 /// See [`ComparisonError`].
 pub fn compare(a: &Mechanism, b: &Mechanism) -> Result<Comparison, ComparisonError> {
-    let kinds = kinds(a);
+    let (kinds, others) = (kinds(a), kinds(b));
     if kinds.is_empty() {
         return Err(ComparisonError::NoActuator);
     }
-    let others = postures::kinds(b);
     if kinds != others {
         return Err(ComparisonError::DifferentActuators {
             a: counts(&kinds),
@@ -113,7 +110,7 @@ pub fn compare(a: &Mechanism, b: &Mechanism) -> Result<Comparison, ComparisonErr
     let stiffness = std::iter::once(&home)
         .chain(postures.iter().take(3))
         .filter(|_| same)
-        .find_map(|q| stiffness::stiffness(a, b, &mapping, q));
+        .find_map(|q| stiffness(a, b, &mapping, q));
     Ok(Comparison {
         mapping,
         same,
@@ -129,4 +126,104 @@ fn counts(kinds: &[MotionKind]) -> ActuatorCounts {
         prismatic,
         revolute: kinds.len() - prismatic,
     }
+}
+
+/// Commands at home, m or rad.
+fn home(m: &Mechanism) -> Vec<f64> {
+    let limbs = m.limbs().iter();
+    limbs.flat_map(|l| l.nominal.home_commands()).collect()
+}
+
+/// Kinds of all actuators, in the order of their names.
+fn kinds(m: &Mechanism) -> Vec<MotionKind> {
+    let limbs = m.limbs().iter();
+    limbs
+        .flat_map(|l| l.nominal.actuators().iter().map(|a| a.kind))
+        .collect()
+}
+
+/// Irregular postures around home: a serial arm in all its range (`wide`), a parallel machine near home.
+fn postures(
+    m: &Mechanism,
+    kinds: &[MotionKind],
+    wide: bool,
+    length: f64,
+    count: usize,
+) -> Vec<Vec<f64>> {
+    let home = home(m);
+    let limits = m
+        .limbs()
+        .iter()
+        .flat_map(|l| l.nominal.actuators().iter().map(|a| a.limits));
+    let limits: Vec<Option<(f64, f64)>> = limits.collect();
+    (0..count)
+        .map(|k| {
+            (0..kinds.len())
+                .map(|i| {
+                    // Golden ratio's multiples, one sequence per joint.
+                    let share = ((k * kinds.len() + i + 1) as f64 * 0.618_033_988_75
+                        + 0.377 * i as f64)
+                        .fract()
+                        - 0.5;
+                    let reach = match (kinds[i], wide) {
+                        (MotionKind::Revolute, true) => 3.0,
+                        (MotionKind::Revolute, false) => 0.2,
+                        (MotionKind::Prismatic, true) => length,
+                        (MotionKind::Prismatic, false) => 0.1 * length,
+                    };
+                    let value = home[i] + share * reach;
+                    match limits[i] {
+                        Some((low, high)) => value.clamp(low, high),
+                        None => value,
+                    }
+                })
+                .collect()
+        })
+        .collect()
+}
+
+/// Stiffnesses against a force at one posture, the tool free to turn, seen at the tool of `a`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StiffnessComparison {
+    /// Commands of `a` there, m or rad.
+    pub commands: Vec<f64>,
+    /// Stiffness of `a`, the softest direction first, N/mm.
+    pub a_n_per_mm: [f64; 3],
+    /// Stiffness of `b`, likewise.
+    pub b_n_per_mm: [f64; 3],
+}
+
+/// Compares the stiffnesses; `None` where one machine is singular, free or rigid there.
+pub(crate) fn stiffness(
+    m: &Mechanism,
+    n: &Mechanism,
+    mapping: &Mapping,
+    commands: &[f64],
+) -> Option<StiffnessComparison> {
+    let one = m.posture(PostureRequest::commands(commands)).ok()?;
+    let other = n
+        .posture(PostureRequest::commands(&mapping.joints(commands)))
+        .ok()?;
+    let compliance =
+        |k: UnloadedStiffness| (k.rank() == 6).then(|| k.cartesian.compliance()).flatten();
+    let a = compliance(one.stiffness().ok()?)?;
+    let b = compliance(other.stiffness().ok()?)?;
+    // Transforms to A's axes, then from B's tool to A's.
+    let turn = turn_matrix(&mapping.base.rotation.to_rotation_matrix());
+    let arm = one.target().translation.vector - (mapping.base * other.target()).translation.vector;
+    let shift = shift_matrix(&arm);
+    let b = shift * turn * b * turn.transpose() * shift.transpose();
+    Some(StiffnessComparison {
+        commands: commands.to_vec(),
+        a_n_per_mm: against_force(&a)?,
+        b_n_per_mm: against_force(&b)?,
+    })
+}
+
+/// Inverse eigenvalues of the block of forces, N/mm; none where a direction is rigid.
+fn against_force(compliance: &Matrix6<f64>) -> Option<[f64; 3]> {
+    let block = compliance.fixed_view::<3, 3>(0, 0).into_owned();
+    let mut values: Vec<f64> = block.symmetric_eigenvalues().iter().copied().collect();
+    values.sort_by(|x, y| y.total_cmp(x));
+    (values[2] > 1e-9 * values[0]).then(|| [0, 1, 2].map(|i| 1e-3 / values[i]))
 }

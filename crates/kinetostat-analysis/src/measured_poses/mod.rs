@@ -4,12 +4,9 @@
 //! tried in the order of their number, so that a simpler one is found first, and all that fit equally are reported:
 //! three poses decide the usual cases, but not every set of three.
 
-mod changes;
 mod controller_coordinates;
 mod explanation;
-mod frames;
 mod measurement;
-mod offset;
 mod search;
 
 pub use controller_coordinates::{ControllerCoordinates, ControllerPoseError};

@@ -5,14 +5,13 @@
 
 mod along_axes;
 mod arm;
-mod by_commands;
 mod error;
 
 use kinetostat::Posture;
 
+pub use along_axes::{CommandReach, reach_by_commands};
 pub use along_axes::{ReachAlongAxes, ReachEnd};
 pub use arm::ArmReach;
-pub use by_commands::{CommandReach, reach_by_commands};
 pub use error::ReachError;
 
 /// Machines of more limbs take too long.

@@ -3,19 +3,17 @@
 //! Takes teeth, engagement, helix and coefficients; gives the directional matrix [D 8] over the turn of the spindle, smooth
 //! piece by piece. Straight or helical edges of a cylinder, even pitch, a force that is linear in the chip.
 
-mod arc;
 mod coefficients;
 mod directional;
 mod milling;
 mod piece;
 mod process;
-mod turning;
 
-pub use arc::{Arc, Milled};
 pub use coefficients::{Coefficients, Linearised};
 pub use milling::MillingCut;
+pub use milling::{Arc, Milled};
 pub use process::Cut;
+pub use process::TurningCut;
 pub(crate) use process::{checked_depth, checked_speed};
-pub use turning::TurningCut;
 
 pub(crate) use piece::Piece;

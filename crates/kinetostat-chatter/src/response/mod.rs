@@ -4,12 +4,11 @@
 
 mod coupling;
 mod first_order;
-mod frame;
 mod mode;
 mod tool;
 
-pub use frame::FeedFrame;
 pub use mode::Mode;
+pub use tool::FeedFrame;
 pub use tool::ToolResponse;
 
 pub(crate) use coupling::Coupling;

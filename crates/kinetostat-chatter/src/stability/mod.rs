@@ -8,9 +8,7 @@
 mod along;
 mod collocation;
 mod counted;
-mod cutting;
 mod eigenvalues;
-mod followed;
 mod krylov;
 mod legendre;
 mod limits;

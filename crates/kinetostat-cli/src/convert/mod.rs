@@ -11,11 +11,12 @@ mod joints;
 pub(crate) mod made;
 pub(crate) mod plausible;
 pub(crate) mod targets;
-mod text;
 
 use std::path::Path;
 
-use kinetostat_formats::{BetweenRows, Template};
+use kinetostat_formats::{BetweenRows, Kept, Made, Template};
+use kinetostat_machining::number::counted;
+use kinetostat_machining::{Warning, WarningCode, merged};
 use kinetostat_report::turns_svg;
 
 use crate::convert::arguments::ConvertArgs;
@@ -23,18 +24,18 @@ use crate::convert::completed::complete;
 use crate::convert::for_run::refuse_fast_feeds;
 use crate::convert::free_turn::free_turn;
 use crate::convert::joints::{Asked, as_joints, with_all_digits};
-use crate::convert::made::made;
+use crate::convert::made::{made, spindle_text};
 use crate::convert::plausible::refuse_implausible;
+use crate::files::file_names::{file_name, stem};
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::file_endings::{Written, refuse_other_ending};
-use crate::job::job_file::JobFile;
+use crate::job::job_file::{JobFile, model_named};
 use crate::job::limits::refuse_limits_but;
 use crate::job::machine::machine_setup;
-use crate::job::model_named::model_named;
 use crate::job::output_paths::FLAT_PROGRAM;
-use crate::job::program::read_program;
+use crate::job::program::{ReadProgram, read_program};
 use crate::job::robot::joint_arm::give_arm;
 use crate::job::robot_arguments::RobotArgs;
 use crate::job::setting::{Setting, setting};
@@ -42,7 +43,7 @@ use crate::job::target_word::TargetWord;
 use crate::job::template_file::{TemplateAsked, TemplateFile};
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::layout::wrapped;
+use crate::ui::layout::{item, wrapped};
 use crate::ui::screen::{self, Stream};
 
 pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
@@ -163,7 +164,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     if let (Some(plot), Some(turned)) = (plot, &turned) {
         claimed.fill(plot, turns_svg(&turned.choice).as_bytes())?;
     }
-    let mut text = text::answer(&setting, &read, &made, &template, (&args.out, args.to));
+    let mut text = answer(&setting, &read, &made, &template, (&args.out, args.to));
     for sentence in said {
         text.push('\n');
         text.push_str(&wrapped(&format!("{sentence}."), 0));
@@ -234,4 +235,98 @@ fn writing(args: &ConvertArgs) -> WritingFlags<'_> {
         out: Some(&args.out),
         ..WritingFlags::default()
     }
+}
+
+/// The answer in words.
+fn answer(
+    setting: &Setting,
+    read: &ReadProgram<'_>,
+    made: &Made,
+    template: &TemplateFile,
+    (out, to): (&Path, TargetWord),
+) -> String {
+    let kept = &made.kept;
+    let mut text = wrapped(
+        &format!(
+            "{}: {} are {} in {}. Read again and compared with the path: {}.",
+            setting.program_name,
+            counted(kept.moves, "move"),
+            counted(kept.motions, "motion"),
+            match made.files.len() {
+                1 => to.title().to_owned(),
+                n => format!("{}, a main program and {} parts", to.title(), n - 1),
+            },
+            differences(kept)
+        ),
+        0,
+    );
+    if let Some(not_started) = spindle_text(made) {
+        text.push_str(&wrapped(&format!("{not_started}."), 0));
+    }
+    let mut found: Vec<Warning> = Vec::new();
+    let general = |text: String| Warning::new(WarningCode::Writing, text);
+    let own = &template.template.program_name;
+    let by_name = matches!(to, TargetWord::Krl | TargetWord::Ls);
+    if by_name && !own.eq_ignore_ascii_case(&stem(out)) {
+        found.push(general(format!(
+            "the program is called {own} and its file {}: controllers want one name",
+            file_name(out)
+        )));
+    }
+    for finding in &made.findings {
+        found.push(match finding.line {
+            Some(line) => Warning::at_line(WarningCode::Writing, line, finding.message.clone()),
+            None => general(finding.message.clone()),
+        });
+    }
+    let named = |line: usize| made.findings.iter().any(|f| f.line == Some(line));
+    // Warnings about corrections do not apply here.
+    let warnings = read.path().warnings.iter().filter(|warning| {
+        let of_systems = warning.text.contains("work coordinate system");
+        !named(warning.line)
+            && (of_systems
+                || !warning.text.contains("correct") && !warning.text.contains("carried"))
+    });
+    for warning in warnings.chain(&setting.expansion_warnings) {
+        let own = Warning::at_line(WarningCode::Program, warning.line, warning.text.clone());
+        found.push(own);
+    }
+    if !found.is_empty() {
+        text.push_str("\nWhat is otherwise, or was taken for granted\n");
+    }
+    for finding in merged(found) {
+        let finding = finding.to_string();
+        text.push_str(&item(&match &setting.flat {
+            Some(flat) => flat.with_sources(&finding),
+            None => finding,
+        }));
+    }
+    text
+}
+
+/// The largest differences.
+fn differences(kept: &Kept) -> String {
+    // A smaller difference is rounding.
+    let within = |what: &str, value: f64, unit: &str| match value < 1e-12 {
+        true => format!("{what} equal"),
+        false => format!("{what} within {value:.1e} {unit}"),
+    };
+    let mut parts = vec![
+        within("places", kept.position_mm, "mm"),
+        within("orientations", kept.orientation_rad, "rad"),
+    ];
+    if kept.arc_mm > 0.0 {
+        parts.push(format!("arcs within {:.1e} mm", kept.arc_mm));
+    }
+    if kept.chord_mm > 0.0 {
+        parts.push(format!(
+            "lines within {:.1e} mm of the curves that they follow",
+            kept.chord_mm
+        ));
+    }
+    parts.push(match kept.speed_relative < 1e-9 {
+        true => "feeds equal".to_owned(),
+        false => format!("feeds within {:.2} %", 100.0 * kept.speed_relative),
+    });
+    parts.join(", ")
 }

@@ -4,13 +4,13 @@
 
 pub(crate) mod arguments;
 mod languages;
-mod rows;
 
+use kinetostat_formats::Treatment as OfStatement;
+use kinetostat_program::{CODES, MOMENTS, Moment, Placed, Treatment as OfCode};
 use serde::Serialize;
 
 use crate::dialect::arguments::{DialectArgs, DialectCommand};
-use crate::dialect::languages::{Language, languages};
-use crate::dialect::rows::{Row, rows};
+use crate::dialect::languages::{Language, Words, languages};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 use crate::ui::layout::{listed, wrapped};
@@ -90,4 +90,150 @@ fn text(language: &Language, table: &Table) -> String {
         text.push_str(&listed(&rows, 2));
     }
     text
+}
+
+/// A word of a language.
+#[derive(Serialize)]
+pub(crate) struct Row {
+    pub(crate) word: String,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub(crate) meaning: &'static str,
+    /// `followed`, `carried` or `refused`.
+    pub(crate) treatment: &'static str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub(crate) reason: &'static str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub(crate) remedy: &'static str,
+    /// Piece that carries it when its block is divided: `first` or `last` piece.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) piece: Option<&'static str>,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub(crate) source: &'static str,
+}
+
+impl Row {
+    /// Meaning, reason and remedy in one sentence.
+    pub(crate) fn description(&self) -> String {
+        let mut parts: Vec<String> = Vec::new();
+        for part in [self.meaning, self.reason, self.remedy] {
+            if !part.is_empty() {
+                parts.push(part.to_owned());
+            }
+        }
+        if let Some(piece) = self.piece {
+            parts.push(format!("in the {piece} piece of a divided block"));
+        }
+        parts.join("; ")
+    }
+}
+
+fn treatment(
+    refused: Option<(&'static str, &'static str)>,
+    followed: bool,
+) -> (&'static str, &'static str, &'static str) {
+    match (refused, followed) {
+        (Some((reason, remedy)), _) => ("refused", reason, remedy),
+        (None, true) => ("followed", "", ""),
+        (None, false) => ("carried", "", ""),
+    }
+}
+
+/// All words of a language.
+fn rows(language: &Language) -> Vec<Row> {
+    match language.words {
+        Words::Codes => codes(),
+        Words::Statements(all) => {
+            let rows = all.iter().map(|row| {
+                let refused = match row.treatment {
+                    OfStatement::Refused { reason, remedy } => Some((reason, remedy)),
+                    _ => None,
+                };
+                let followed = row.treatment == OfStatement::Understood;
+                let (treatment, reason, remedy) = treatment(refused, followed);
+                Row {
+                    word: row.name.to_owned(),
+                    meaning: "",
+                    treatment,
+                    reason,
+                    remedy,
+                    piece: None,
+                    source: row.source,
+                }
+            });
+            rows.collect()
+        }
+    }
+}
+
+/// Words beside codes and coordinates.
+const WORDS: [(&str, &str, &str); 4] = [
+    ("F", "feed, in the feed mode in force", "followed"),
+    ("S", "spindle speed", "followed"),
+    ("T", "number of a tool", "followed"),
+    ("N", "number of the block", "carried"),
+];
+
+/// M codes of which spindle and tool are known along the path; the others beside motions are carried.
+const SPINDLE_AND_TOOL: std::ops::RangeInclusive<u32> = 3..=6;
+
+fn codes() -> Vec<Row> {
+    let of_word = |(word, meaning, treatment): (&str, _, _)| Row {
+        word: word.to_owned(),
+        meaning,
+        treatment,
+        reason: "",
+        remedy: "",
+        piece: None,
+        source: "",
+    };
+    let mut all: Vec<Row> = WORDS.into_iter().map(of_word).collect();
+    for code in CODES {
+        let refused = match code.treatment {
+            OfCode::Refused { reason, remedy } => Some((reason, remedy)),
+            _ => None,
+        };
+        let followed = code.treatment == OfCode::Understood;
+        let (treatment, reason, remedy) = treatment(refused, followed);
+        for tenths in code.tenths {
+            let word = match tenths % 10 {
+                0 => format!("{}{}", code.letter, tenths / 10),
+                part => format!("{}{}.{part}", code.letter, tenths / 10),
+            };
+            let moment = MOMENTS
+                .iter()
+                .find(|moment| code.letter == 'M' && 10 * moment.code == *tenths);
+            all.push(Row {
+                word,
+                meaning: code.meaning,
+                treatment,
+                reason,
+                remedy,
+                piece: moment.and_then(piece_of),
+                source: "",
+            });
+        }
+    }
+    for moment in MOMENTS {
+        let word = format!("M{}", moment.code);
+        if all.iter().any(|row| row.word == word) {
+            continue;
+        }
+        all.push(Row {
+            piece: piece_of(moment),
+            ..of_word(match SPINDLE_AND_TOOL.contains(&moment.code) {
+                true => (&word, moment.meaning, "followed"),
+                false => (&word, moment.meaning, "carried"),
+            })
+        });
+    }
+    all
+}
+
+/// Returns the piece that carries a code when its block is divided.
+fn piece_of(moment: &Moment) -> Option<&'static str> {
+    match moment.placed {
+        Placed::First => Some("first"),
+        Placed::Last => Some("last"),
+        Placed::Refused => None,
+    }
 }

@@ -12,4 +12,3 @@ pub(crate) mod loads;
 pub(crate) mod machine;
 pub(crate) mod moves;
 pub(crate) mod subject;
-pub(crate) mod table;

@@ -6,17 +6,12 @@
 mod answer;
 mod answer_of;
 pub(crate) mod arguments;
-mod assumed;
-mod csv;
 pub(crate) mod cut;
 mod drilling;
 mod findings;
 pub(crate) mod fit;
 pub(crate) mod fit_arguments;
-mod help;
-mod list;
 pub(crate) mod material;
-mod plot;
 pub(crate) mod refusal;
 mod text;
 pub(crate) mod tool;
@@ -25,16 +20,24 @@ mod turning;
 
 use std::path::PathBuf;
 
+use kinetostat_cutting::{ForceLaw, Law, Material, Materials};
+use kinetostat_report::{Plot, PlotLine};
+
 use crate::files::answer_files::{ClaimedFiles, Shown};
 use crate::files::input_files::InputFiles;
+use crate::force::answer::{AtAngle, ForceAnswer, ListedMaterial, MaterialList};
 use crate::force::answer_of::answer_of;
 use crate::force::arguments::ForceArgs;
 use crate::force::cut::cut_of;
 use crate::force::material::{Made, applied, material, materials};
+use crate::force::text::milling;
 use crate::force::tool::tool_of;
 use crate::ui::background::interruptible;
+use crate::ui::csv_table::{cell, written};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::given::Given;
+use crate::ui::layout::{listed, wrapped};
+use crate::ui::numbers::{given, number};
 
 /// Options of a dynamometer's log.
 const OF_A_FIT: [&str; 4] = ["--acts-on", "--group", "--spread-percent", "--out-material"];
@@ -114,12 +117,12 @@ pub(crate) fn run(args: &ForceArgs, given: &Given) -> Answer<()> {
     if args.list_materials {
         let claimed = ClaimedFiles::claim(&args.outputs, &inputs)?;
         let shown = Shown {
-            text: list::list_text(&materials),
+            text: list_text(&materials),
             csv: Vec::new(),
             svg: String::new(),
             failure: None,
         };
-        return claimed.finish(&shown, &list::list(&materials));
+        return claimed.finish(&shown, &list(&materials));
     }
     let material = material(&materials, &args.material)?;
     if args.steady.drill || args.steady.turning {
@@ -156,9 +159,161 @@ pub(crate) fn run(args: &ForceArgs, given: &Given) -> Answer<()> {
     let answer = interruptible(move |_| answer_of(question, &material, &applied, &tool, &cut))?;
     let shown = Shown {
         text: text::answer_text(&answer),
-        csv: csv::of_force(&answer)?,
-        svg: plot::drawing(&answer),
+        csv: of_force(&answer)?,
+        svg: drawing(&answer),
         failure: None,
     };
     claimed.finish(&shown, &answer)
+}
+
+fn of_force(answer: &ForceAnswer) -> Answer<Vec<u8>> {
+    let header = [
+        "angle_deg",
+        "fx_n",
+        "fy_n",
+        "fz_n",
+        "across_tool_n",
+        "torque_n_mm",
+        "mx_n_mm",
+        "my_n_mm",
+        "mz_n_mm",
+    ];
+    let mut rows = vec![header.map(String::from).to_vec()];
+    for at in &answer.revolution {
+        let [x, y, z] = at.force_n;
+        let mut row = vec![cell(at.angle_deg), cell(x), cell(y), cell(z)];
+        row.push(cell(x.hypot(y)));
+        row.push(cell(at.torque_n_mm));
+        row.extend(at.moment_n_mm.iter().map(|m| cell(*m)));
+        rows.push(row);
+    }
+    written(&rows)
+}
+
+/// Chip with which the materials are compared, mm.
+const CHIP_MM: f64 = 0.1;
+
+fn list(materials: &Materials) -> MaterialList {
+    MaterialList {
+        schema: 1,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        materials: materials.iter().map(ListedMaterial::from).collect(),
+    }
+}
+
+fn list_text(materials: &Materials) -> String {
+    let mut out = wrapped(
+        "Materials for --material NAME, by their sources. Spread: how far the force of another batch or tool may lie from the law. k_c: force against the tooth's way per mm2 of a chip of 0.1 mm, N/mm2, before factors; with turning tests milling takes another 1.3 (--process-factor).",
+        0,
+    );
+    let mut sources: Vec<&str> = Vec::new();
+    for material in materials.iter() {
+        if !sources.contains(&material.source.as_str()) {
+            sources.push(&material.source);
+        }
+    }
+    // One width of columns for all sources.
+    let head = ["", "law", "spread", "k_c", "measured in"].map(String::from);
+    let mut rows = vec![head.to_vec()];
+    let mut begins = Vec::new();
+    for source in &sources {
+        begins.push(rows.len());
+        rows.extend(materials.iter().filter(|m| m.source == *source).map(row));
+    }
+    let text = listed(&rows, 2);
+    let mut lines = text.lines();
+    let head = lines.next().unwrap_or_default().to_owned();
+    for (k, line) in lines.enumerate() {
+        if let Some(source) = begins.iter().position(|begin| *begin == k + 1) {
+            out.push('\n');
+            out.push_str(&wrapped(sources[source], 0));
+            out.push_str(&head);
+            out.push('\n');
+        }
+        out.push_str(line);
+        out.push('\n');
+    }
+    out.push('\n');
+    out.push_str(&wrapped(
+        "Other designations, coefficients and assumptions: --json. A file of your own (--materials FILE.toml) has the form of the library, material/library.toml of kinetostat-cutting.",
+        0,
+    ));
+    out
+}
+
+fn row(material: &Material) -> Vec<String> {
+    let law = match material.law {
+        Law::Linear(_) => "linear",
+        Law::Kienzle(_) => "Kienzle",
+        Law::Exponential(_) => "exponential",
+        Law::Rational(_) => "rational",
+    };
+    let process = match material.measured_in.process {
+        kinetostat_cutting::Process::Turning => "turning",
+        kinetostat_cutting::Process::Milling => "milling",
+    };
+    vec![
+        material.name.clone(),
+        law.to_owned(),
+        format!("{} %", given(100.0 * material.spread)),
+        number(material.edge_force(CHIP_MM).tangential / CHIP_MM, 4),
+        process.to_owned(),
+    ]
+}
+
+fn drawing(a: &ForceAnswer) -> String {
+    let names = [
+        "Fx, along the feed",
+        "Fy, to its left",
+        "Fz, along the tool",
+    ];
+    let force = |k: usize| line(names[k], k, a, |at| at.force_n[k]);
+    let mut lines: Vec<PlotLine> = (0..3).map(force).collect();
+    let means = a.mean.force_n.iter().enumerate();
+    lines.extend(means.map(|(k, mean)| level(["means", "", ""][k], k, *mean)));
+    let over = "angle of the spindle, deg";
+    let forces = Plot {
+        title: title(a),
+        x_label: over.into(),
+        y_label: "force on the tool, N".into(),
+        lines,
+        marks: Vec::new(),
+    };
+    let torque = |at: &AtAngle| 1e-3 * at.torque_n_mm;
+    let torques = Plot {
+        title: "Torque of the spindle".into(),
+        x_label: over.into(),
+        y_label: "torque, N m".into(),
+        lines: vec![
+            line("torque", 3, a, torque),
+            level("mean", 3, 1e-3 * a.mean.torque_n_mm),
+        ],
+        marks: Vec::new(),
+    };
+    forces.svg_above(&[torques])
+}
+
+fn title(a: &ForceAnswer) -> String {
+    let c = &a.cut;
+    format!(
+        "{}: {} mm wide, {} mm deep, {} mm per tooth in {}",
+        milling(c.milling),
+        given(c.width_mm),
+        given(c.depth_mm),
+        given(c.feed_per_tooth_mm),
+        a.material.name
+    )
+}
+
+/// One quantity over the whole turn, its end being its beginning.
+fn line(name: &str, colour: usize, a: &ForceAnswer, of: impl Fn(&AtAngle) -> f64) -> PlotLine {
+    let mut points: Vec<(f64, f64)> = a.revolution.iter().map(|p| (p.angle_deg, of(p))).collect();
+    if let Some(first) = a.revolution.first() {
+        points.push((360.0, of(first)));
+    }
+    PlotLine::solid(name, colour, points)
+}
+
+fn level(name: &str, colour: usize, value: f64) -> PlotLine {
+    PlotLine::dashed(name, colour, vec![(0.0, value), (360.0, value)])
 }

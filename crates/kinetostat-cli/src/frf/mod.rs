@@ -4,14 +4,12 @@
 
 mod answer;
 pub(crate) mod arguments;
-mod doubts;
 mod fit;
-mod fit_text;
 mod measured;
-mod question;
 mod scaling;
 mod text;
 
+use kinetostat::number::larger;
 use kinetostat_analysis::vibration::VibratingMachine;
 use kinetostat_dynamics::{Damping, Quantity, Receptance};
 use kinetostat_machining::{Warning, WarningCode};
@@ -21,14 +19,15 @@ use crate::files::input_files::InputFiles;
 use crate::frf::answer::{FrfAnswer, curves};
 use crate::frf::arguments::{FrfArgs, QuantityWord};
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::numbers::number;
 use crate::vibration::damping::words;
 use crate::vibration::pair::{frequency_hz, growth_per_s};
 use crate::vibration::subject;
 
 pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
-    let frequencies = question::frequencies(&args.frequencies)?;
+    let frequencies = frequencies(&args.frequencies)?;
     let entries = args.entries();
-    question::makes_sense(args, &frequencies, &entries)?;
+    makes_sense(args, &frequencies, &entries)?;
     let query = subject::query(&args.machine)?;
     let damping = args.damping.law(&query.damping)?;
     let held = subject::held(args.hold.as_deref())?;
@@ -52,7 +51,7 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
     let mut warnings = query.warnings.clone();
     warnings.extend(subject::limits(&machine, &posture));
     warnings.extend(measured::warnings(&measured));
-    warnings.extend(doubts::of(args, (&machine, &damping), &frequencies));
+    warnings.extend(of(args, (&machine, &damping), &frequencies));
     let receptance = response.over(&frequencies).map_err(subject::refused)?;
     let finite = |m: &Receptance| m.iter().all(|v| v.re.is_finite() && v.im.is_finite());
     if let Some(at) = receptance.iter().position(|m| !finite(m)) {
@@ -82,7 +81,7 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
     warnings.extend(doubts.map(|words| Warning::new(WarningCode::Model, words)));
     let (natural_frequencies_hz, natural_growth_per_s) = natural(&machine)?;
     if args.fit.is_some() && natural_growth_per_s.is_some() {
-        warnings.push(doubts::no_real_modes());
+        warnings.push(no_real_modes());
     }
     let answer = FrfAnswer {
         head: query.head(1),
@@ -132,4 +131,83 @@ fn natural(machine: &VibratingMachine) -> Answer<(Vec<f64>, Option<Vec<f64>>)> {
     let of_pair = |pair| (frequency_hz(pair), growth_per_s(pair));
     let (hz, growth) = found.modes.iter().map(of_pair).unzip();
     Ok((hz, Some(growth)))
+}
+
+/// Checks the damping and the frequencies.
+fn of(
+    args: &FrfArgs,
+    (machine, damping): (&VibratingMachine, &Damping),
+    frequencies: &[f64],
+) -> Vec<Warning> {
+    let mut found = Vec::new();
+    if args.modes.is_some() && machine.dynamics.modes_are_coupled_by(damping) {
+        found.push("with --modes each mode has its own damping alone, and what couples modes is left out; without --modes the response is solved directly".to_owned());
+    }
+    if *damping == Damping::Undamped {
+        found.push("without damping (--damping 0.03, for one) resonances have no height: peaks are as high as a frequency happens to lie near".to_owned());
+    }
+    let highest_hz = frequencies.iter().copied().fold(0.0, larger);
+    if let Some(fastest_hz) = subject::far_below(machine, highest_hz) {
+        found.push(format!(
+            "frequencies go up to {} Hz, and the fastest mode of the model has {} Hz: what is said far beyond it says nothing of a real machine; check --frequencies",
+            number(highest_hz, 4),
+            number(fastest_hz, 4)
+        ));
+    }
+    let warning = |words| Warning::new(WarningCode::Model, words);
+    found.into_iter().map(warning).collect()
+}
+
+/// Measured modes beside a machine that has no real ones.
+fn no_real_modes() -> Warning {
+    Warning::new(
+        WarningCode::NoPotential,
+        "measured modes are compared with modes of the symmetric part of the stiffness: the loads have no potential, and real modes are none of this machine".to_owned(),
+    )
+}
+
+/// Upper limit of the frequencies of a response.
+const MOST: f64 = 200_000.0;
+
+/// Refuses options that say nothing together.
+pub(crate) fn makes_sense(
+    args: &FrfArgs,
+    frequencies: &[f64],
+    entries: &[(usize, usize)],
+) -> Answer<()> {
+    let is_drawn = args.outputs.plot.is_some();
+    if let ([one], true) = (frequencies, is_drawn || args.fit.is_some()) {
+        return Err(Failure::input(format!(
+            "--frequencies names one frequency, {one} Hz; --plot and --fit need a band"
+        )));
+    }
+    if is_drawn && !entries.iter().any(|(to, from)| *to < 3 && *from < 3) {
+        return Err(Failure::input(
+            "--plot draws motions along axes by forces along axes; there is none among --to and --from",
+        ));
+    }
+    Ok(())
+}
+
+/// Evenly spaced frequencies, Hz.
+pub(crate) fn frequencies(of: &[f64]) -> Answer<Vec<f64>> {
+    let &[low, high, count] = of else {
+        return Err(Failure::input("--frequencies needs LO HI N"));
+    };
+    if count == 1.0 && low == high && low >= 0.0 && low.is_finite() {
+        return Ok(vec![low]);
+    }
+    if !(low >= 0.0 && high > low && high.is_finite()) {
+        return Err(Failure::input(format!(
+            "--frequencies {low} {high}: frequencies in Hz are needed, the first not below 0 and the second above the first"
+        )));
+    }
+    if !(2.0..=MOST).contains(&count) || count.fract() != 0.0 {
+        return Err(Failure::input(format!(
+            "--frequencies: N is {count}; a whole number from 2 to {MOST} is needed, or 1 with the same frequency twice"
+        )));
+    }
+    let count = count as usize;
+    let step = (high - low) / (count - 1) as f64;
+    Ok((0..count).map(|i| low + step * i as f64).collect())
 }

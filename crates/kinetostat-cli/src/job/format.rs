@@ -8,16 +8,13 @@ use kinetostat_model::schema::{Deviation, Placement as PoseTable};
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
-use crate::job::chatter_table::ChatterTable;
 use crate::job::cut_tables::{
     CuttersTable, EngagementTable, MaterialTable, MeasuredTable, SpindleTable, StockTable,
 };
 use crate::job::expand_table::ExpandTable;
-use crate::job::feature_table::FeatureTable;
 use crate::job::place_table::PlaceTable;
 use crate::job::robot_table::{CallWord, RobotTable, ValueWord};
 use crate::job::source::Source;
-use crate::job::uncertain_table::UncertainTable;
 use crate::job::units_word::UnitsWord;
 use crate::ui::failure::Failure;
 use crate::ui::language::LanguageWord;
@@ -321,4 +318,42 @@ impl Job {
             "use the program that wrote the file, or convert the file",
         ))
     }
+}
+
+/// Chatter is judged along the program: `[chatter]`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ChatterTable {
+    /// Ratio to critical damping of all modes; without it the model says how it is damped.
+    pub damping_ratio: Option<Spanned<f64>>,
+    /// Modes above this count by their flexibility at rest, Hz; without it those that do not count.
+    pub modes_up_to_hz: Option<Spanned<f64>>,
+    /// Places farther apart are judged by themselves, mm.
+    pub every_mm: Option<Spanned<f64>>,
+    /// Upper limit of the places that are judged.
+    pub most_places: Option<Spanned<usize>>,
+}
+
+/// A feature: lines of the program with a name and a tolerance.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FeatureTable {
+    /// Feature name.
+    pub name: Spanned<String>,
+    /// First and last line of the program.
+    pub lines: Spanned<[usize; 2]>,
+    /// Tolerance of the tool's position there, micrometres; by default that of the whole program.
+    pub tolerance_um: Option<Spanned<f64>>,
+}
+
+/// Table of uncertainties: `[uncertain]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct UncertainTable {
+    /// File of uncertainties (see `kinetostat tolerance --help`).
+    pub file: Spanned<String>,
+    /// Machines that are drawn.
+    pub machines: Option<Spanned<usize>>,
+    /// Seed of the draws.
+    pub seed: Option<u32>,
 }

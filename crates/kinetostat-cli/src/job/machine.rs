@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use kinetostat::Mechanism;
 use kinetostat_machining::{
-    Bounds, FileRead, Placement, ProgramLoad, RunInputs, ToolGiven, Warning, WeightCorrection,
+    Bounds, FileRead, Placement, ProgramLoad, RunInputs, ToolGiven, TouchOff, Warning,
+    WeightCorrection,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{RotaryAxes, WriteOptions};
@@ -16,9 +17,9 @@ use crate::files::origin;
 use crate::job::arguments::ProgramArgs;
 use crate::job::cell::Cell;
 use crate::job::cut::{CutSetup, FilesOfCut, MeasuredSetup, cut_setup, measured_setup};
-use crate::job::job_file::JobFile;
+use crate::job::format::WeightWord;
+use crate::job::job_file::{JobFile, model_named};
 use crate::job::load::load;
-use crate::job::model_named::model_named;
 use crate::job::placement::{placement, placement_description};
 use crate::job::robot::frames::RobotFrames;
 use crate::job::robot::machine::{
@@ -27,7 +28,6 @@ use crate::job::robot::machine::{
 use crate::job::rotary::rotary;
 use crate::job::tool_mass::{ToolMass, carrying, tool_mass};
 use crate::job::tools::{numbered_tools, tool};
-use crate::job::weight::weight;
 use crate::machine::model_warnings::deviation_descriptions;
 use crate::machine::stiffness_list;
 use crate::place::orientation;
@@ -289,4 +289,62 @@ fn with_deviations(model: Model, job: Option<&JobFile>) -> Answer<Model> {
 fn fingerprint(model: &Model) -> u64 {
     let text = model.to_toml().unwrap_or_else(|_| model.text.clone());
     fnv1a(FNV1A, text.as_bytes())
+}
+
+/// Reads it; not stated where neither job nor options say anything.
+fn weight(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<WeightCorrection> {
+    if let Some(j) = job {
+        of_tools(j)?;
+    }
+    let table = job.map(|j| &j.job.load);
+    let in_job = table.and_then(|table| table.weight.as_ref());
+    let places_in_job = table.and_then(|table| table.touch_off_mm.as_ref());
+    let word = flags.weight.or(in_job.map(|word| *word.get_ref()));
+    let help = "give one place, or three and more that are not on one line: touch_off_mm = [[X, Y, Z]] under [load], or --touch-off X Y Z";
+    let touch_off = |places: Vec<[f64; 3]>| {
+        TouchOff::at(places).map_err(|error| match (job, places_in_job, &flags.touch_off) {
+            (Some(j), Some(at), None) => j.error(at, &error.to_string(), help),
+            _ => Failure::input(format!("{error}; {help}")),
+        })
+    };
+    let places = match (&flags.touch_off, places_in_job) {
+        (Some(all), _) => {
+            let all = all.chunks_exact(3);
+            Some(all.map(|p| [p[0], p[1], p[2]]).collect())
+        }
+        (None, places) => places.map(|places| places.get_ref().clone()),
+    };
+    // A word on the command line goes over the places of the job.
+    let goes_over = flags.weight.is_some() && flags.touch_off.is_none();
+    match word {
+        Some(WeightWord::TouchOff) => {
+            let touched = touch_off(places.unwrap_or_default())?;
+            Ok(WeightCorrection::TouchOff(touched))
+        }
+        _ if places.is_some() && !goes_over => Err(Failure::input(
+            "places where the part was touched off are given (touch_off_mm under [load], --touch-off), and weight is not \"touch-off\"; write weight = \"touch-off\" under [load] or --weight touch-off, or leave the places out",
+        )),
+        Some(WeightWord::All) => Ok(WeightCorrection::All),
+        Some(WeightWord::None) => Ok(WeightCorrection::None),
+        None => Ok(WeightCorrection::NotStated),
+    }
+}
+
+/// The frame is that of the whole program.
+fn of_tools(j: &JobFile) -> Answer<()> {
+    let tools = j
+        .job
+        .tools
+        .iter()
+        .filter_map(|tool| tool.get_ref().load.as_ref());
+    for table in tools {
+        if let Some(at) = &table.weight {
+            return Err(j.error(
+                at,
+                "the weight is stated for one tool, and the part frame is measured once for all",
+                "write it under [load] at the top of the job",
+            ));
+        }
+    }
+    Ok(())
 }

@@ -1,11 +1,20 @@
 //! Model data for the first reading of a program, before the machine of the run is known.
+//!
+//! The rotary axes of the model for the first reading of a program in the language of a machine's control.
+//!
+//! Its tool and its frames are asked for before the machine of the run is known; where its words turn rotary axes, it cannot be
+//! read without these.
+
+use kinetostat_formats::read;
 
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::ProgramArgs;
-use crate::job::axes_of_program::give_axes;
-use crate::job::job_file::JobFile;
+use crate::job::job_file::{JobFile, model_named};
+use crate::job::placement::placement;
 use crate::job::robot::joint_arm::give_arm;
+use crate::job::rotary::rotary;
 use crate::job::setting::Setting;
+use crate::job::tools::tool;
 use crate::ui::failure::Answer;
 
 /// Gives a table of joint values the arm of the model, and a program whose words turn rotary axes those of the model.
@@ -17,4 +26,41 @@ pub(crate) fn give_of_model(
 ) -> Answer<()> {
     give_arm(setting.robot.as_mut(), files, model, flags)?;
     give_axes(setting, files, model, flags)
+}
+
+/// Gives a SINUMERIK or Heidenhain program whose words turn rotary axes those of the model; others stay as they are.
+fn give_axes(
+    setting: &mut Setting,
+    files: &InputFiles,
+    (job, flag_model): (Option<&JobFile>, Option<&str>),
+    flags: &ProgramArgs,
+) -> Answer<()> {
+    let Some(source) = &setting.robot else {
+        return Ok(());
+    };
+    if !source.language.is_in_blocks() {
+        return Ok(());
+    }
+    let (named, base) = model_named(job, flag_model)?;
+    let (model, _) = files.model(&named, &base)?;
+    let letters: Vec<char> = (model.rotary_axes().iter())
+        .map(|axis| axis.letter)
+        .collect();
+    if letters.is_empty() {
+        return Ok(());
+    }
+    let mut reading = source.settings.reading.clone();
+    reading.rotary_axes = letters;
+    let as_read = |reading| read(source.language, source.files.clone(), reading);
+    // Faults of the program are reported by its own reader; words refused without the axes need them.
+    if as_read(&reading).is_ok_and(|program| !program.states_axis_angles())
+        && as_read(&source.settings.reading).is_ok()
+    {
+        return Ok(());
+    }
+    let (tool, _) = tool(job, flags)?;
+    let mechanism = model.mechanism.with_tool(&tool);
+    let placement = placement(job, flags, &mechanism)?;
+    setting.turned_by(rotary(&model, &placement));
+    Ok(())
 }

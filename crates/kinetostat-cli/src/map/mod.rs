@@ -8,14 +8,11 @@ pub(crate) mod arguments;
 mod columns;
 mod fields;
 mod files;
-mod orientations;
-mod over;
 mod picture;
 mod query;
 mod solve;
 mod store;
 mod text;
-mod unanswered;
 
 use std::path::{Path, PathBuf};
 
@@ -29,20 +26,18 @@ use crate::files::hash::sha256;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::machine::model_warnings::{deviation_descriptions, no_potential, of_model};
-use crate::map::answer::{Figures, MapAnswer};
+use crate::map::answer::{Figures, MapAnswer, Places};
 use crate::map::arguments::MapArgs;
 use crate::map::columns::{Column, asked};
 use crate::map::fields::Gathering;
 use crate::map::files::Files;
-use crate::map::orientations::Orientations;
 use crate::map::picture::Picture;
 use crate::map::query::{grid, loads};
 use crate::map::solve::{Sinks, solve};
 use crate::map::store::{Manifest, Store};
-use crate::map::unanswered::without_figures;
 use crate::place::orientation;
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::numbers::short;
+use crate::ui::numbers::{load_triple, short};
 use crate::ui::{json, threads};
 use crate::vibration::subject;
 
@@ -276,4 +271,108 @@ fn manifest(args: &MapArgs, model: &Model, task: &MapTask<'_>) -> Manifest {
         .map(|(name, text)| (name.to_owned(), text))
         .into_iter()
         .collect()
+}
+
+/// Orientations of the tool at every place.
+pub(crate) struct Orientations {
+    /// Requested orientations; none: it follows.
+    requested: Vec<Option<UnitQuaternion<f64>>>,
+    /// The first one, at home without any.
+    pub(crate) first: UnitQuaternion<f64>,
+    /// True if the orientation is the nearest to the first that the machine can have.
+    pub(crate) follows: bool,
+}
+
+impl Orientations {
+    /// Orientations by the options; without them, that at home.
+    pub(crate) fn asked(args: &MapArgs, mechanism: &Mechanism) -> Answer<Self> {
+        let requested: Vec<Option<UnitQuaternion<f64>>> = (args.rotation.iter())
+            .map(|text| orientation::option_or_follows("--rotation", text))
+            .collect::<Answer<_>>()?;
+        if requested.len() > 1 && requested.iter().any(Option::is_none) {
+            return Err(Failure::input(
+                "--rotation follows is the only orientation, or none of them",
+            ));
+        }
+        let home = mechanism.platforms()[mechanism.tool()].home.rotation;
+        let first = requested.first().copied();
+        Ok(Self {
+            follows: first.map_or_else(|| mechanism.turns_as_it_moves(), |a| a.is_none()),
+            first: first.flatten().unwrap_or(home),
+            requested,
+        })
+    }
+
+    /// True if the options state any.
+    pub(crate) fn are_stated(&self) -> bool {
+        !self.requested.is_empty()
+    }
+
+    /// Number of cases of each orientation with each load.
+    pub(crate) fn cases(&self, loads: &[Wrench]) -> Answer<usize> {
+        let cases = self.requested.len().max(1) * loads.len().max(1);
+        if cases > 1 && self.follows {
+            return Err(Failure::input(
+                "several loads are compared where the orientation is held; give --rotation, or one load",
+            ));
+        }
+        Ok(cases)
+    }
+
+    /// The cases beside the first orientation with the first load.
+    pub(crate) fn further(&self, loads: &[Wrench]) -> Vec<(UnitQuaternion<f64>, Option<Wrench>)> {
+        let orientations: Vec<_> = match self.requested.is_empty() {
+            true => vec![self.first],
+            false => self.requested.iter().flatten().copied().collect(),
+        };
+        let loads: Vec<Option<Wrench>> = match loads.is_empty() {
+            true => vec![None],
+            false => loads.iter().copied().map(Some).collect(),
+        };
+        let all = orientations
+            .iter()
+            .flat_map(|o| loads.iter().map(move |l| (*o, *l)));
+        all.skip(1).collect()
+    }
+}
+
+/// Failure if no place has figures.
+fn without_figures(task: &MapTask<'_>, places: &Places) -> Option<Failure> {
+    if places.with_figures() > 0 {
+        return None;
+    }
+    if places.no_answer > 0 {
+        return Some(no_equilibrium(task, places));
+    }
+    Some(Failure::unanswered(format!(
+        "the machine {} with the tool {} (cannot be reached: {}; outside the limits of an actuator: {}); choose places inside the workspace (`kinetostat check` tells its size), another --rotation, or check the tool's length",
+        match places.requested {
+            1 => "cannot be put at the place".to_owned(),
+            n => format!("can be put at none of the {n} places"),
+        },
+        orientation::description(&task.orientation),
+        places.unreachable,
+        places.outside_limits
+    )))
+}
+
+/// Failure if places are within reach and none has an answer: the load is the reason.
+fn no_equilibrium(task: &MapTask<'_>, places: &Places) -> Failure {
+    let wrench = task.load.unwrap_or_else(Wrench::zero);
+    let counts = match places.requested {
+        1 => String::new(),
+        _ => format!(
+            " (no equilibrium: {}; cannot be reached: {}; outside the limits of an actuator: {})",
+            places.no_answer, places.unreachable, places.outside_limits
+        ),
+    };
+    Failure::unanswered(format!(
+        "no equilibrium was found {} under the force {} N and the moment {} N m{counts}: the load may be beyond what the machine can carry; check the load and its unit, or try a part of it",
+        match places.requested {
+            1 => "at the place".to_owned(),
+            n => format!("at any of the {n} places"),
+        },
+        load_triple(wrench.force().into()),
+        load_triple(wrench.moment().into()),
+    ))
 }

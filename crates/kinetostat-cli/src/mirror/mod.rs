@@ -2,15 +2,16 @@
 //!
 //! It takes the program as it is drawn, measured points and the state of the trials before, and gives the program of the next
 //! trial with the new state, a plot and a result. What it knows of points and trials is in the crate `kinetostat-mirror`.
+//!
+//! The file of the state: what `mirror` has written, and nothing else.
+//!
+//! Its first line is a digest of all others. A number that was changed by hand would be taken for a correction that the machine
+//! was given, and every trial after it would mirror the difference.
 
 mod answer;
 pub(crate) mod arguments;
 mod asked;
-mod features;
 mod measured;
-mod measurement_text;
-mod plot;
-mod state_file;
 mod text;
 mod written;
 
@@ -22,7 +23,11 @@ use kinetostat_mirror::{
     Repeatability,
 };
 use kinetostat_program::Accounting;
+use kinetostat_report::{Plot, PlotLine, PlotMark};
+use nalgebra::Vector3;
+use serde::Deserialize;
 
+use crate::files::hash::sha256;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::job_file::JobFile;
@@ -32,15 +37,14 @@ use crate::job::output_paths::BESIDE;
 use crate::job::program::read_program;
 use crate::job::setting::Setting;
 use crate::long::checkpoint::Manifest;
-use crate::mirror::answer::{MeasurementResult, MirrorAnswer, largest_correction_mm};
+use crate::mirror::answer::{MeasurementResult, MirrorAnswer, largest_correction_mm, of_features};
 use crate::mirror::arguments::MirrorArgs;
 use crate::mirror::asked::{asked, flags_of, hash_of, names_model, settings_of};
-use crate::mirror::features::of_features;
 use crate::mirror::measured::{measurements, repeatability};
-use crate::mirror::state_file::{read_state, state_text};
 use crate::mirror::written::written;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
+use crate::ui::numbers::{number, short};
 
 impl From<MirrorError> for Failure {
     fn from(error: MirrorError) -> Self {
@@ -216,7 +220,7 @@ impl Claimed {
                 "{}, trial {}: deviation along the path",
                 answer.program, answer.trial
             );
-            let picture = plot::drawing(title, first, state);
+            let picture = drawing(title, first, state);
             self.outputs.fill(index, picture.as_bytes())?;
         }
         if let Some(index) = self.state {
@@ -261,4 +265,126 @@ fn answer_of(
         largest_correction_mm: largest_correction_mm(state),
         accounting: made.written.accounting.clone(),
     }
+}
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Points that a picture holds; of more, every so many.
+const MOST: usize = 4000;
+
+fn drawing(title: String, measured: &Measurement, state: &MirrorState) -> String {
+    let x_label = "length along the feed moves, mm".to_owned();
+    let along = |k: usize,
+                 name: String,
+                 dashed: bool,
+                 all: &mut dyn Iterator<Item = (f64, Vector3<f64>)>| {
+        let points = all.map(|(at, v)| (at, 1e3 * v[k])).collect();
+        PlotLine {
+            name,
+            colour: k,
+            dashed,
+            points,
+        }
+    };
+    let every = measured.points.len().div_ceil(MOST).max(1);
+    let mut lines = Vec::new();
+    for (k, axis) in AXES.iter().enumerate() {
+        let points = measured.points.iter().step_by(every);
+        let mut raw = points.map(|p| (p.along_mm, p.deviation_mm));
+        lines.push(along(k, format!("{axis}, measured"), true, &mut raw));
+        let places = state.along_mm.iter().copied();
+        let mut smoothed = places.zip(&measured.at_stations).map(|(at, s)| {
+            let lost = Vector3::repeat(f64::NAN);
+            (
+                at,
+                if s.effective_points > 0.0 {
+                    s.deviation_mm
+                } else {
+                    lost
+                },
+            )
+        });
+        lines.push(along(k, format!("{axis}, smoothed"), false, &mut smoothed));
+    }
+    let marks = measured.outliers.iter().map(|outlier| {
+        let axis = outlier.deviation_mm.iamax();
+        PlotMark {
+            at: (outlier.along_mm, 1e3 * outlier.deviation_mm[axis]),
+            name: String::new(),
+            detail: format!(
+                "outlier, row {}: {} um from the path at {} mm",
+                outlier.row,
+                number(1e3 * outlier.distance_mm, 3),
+                short(outlier.along_mm)
+            ),
+        }
+    });
+    let deviation = Plot {
+        title,
+        x_label: x_label.clone(),
+        y_label: "deviation across the path, um".into(),
+        lines,
+        marks: marks.collect(),
+    };
+    let correction = Plot {
+        title: "Correction of the next trial".into(),
+        x_label,
+        y_label: "correction, um".into(),
+        lines: (0..3)
+            .map(|k| {
+                let places = state.along_mm.iter().copied();
+                let mut all = places.zip(state.correction_mm.iter().copied());
+                along(k, AXES[k].to_owned(), false, &mut all)
+            })
+            .collect(),
+        marks: Vec::new(),
+    };
+    deviation.svg_above(&[correction])
+}
+
+/// Name of the digest in the file.
+const DIGEST: &str = "content_sha256";
+
+/// A state with the digest that it was written with, if any: states of earlier versions have none.
+#[derive(Deserialize)]
+struct Digest {
+    content_sha256: Option<String>,
+}
+
+fn read_state(files: &InputFiles, path: &Path) -> Answer<MirrorState> {
+    let text = files.state(path)?;
+    let of_file = |error: toml::de::Error| {
+        let before = error.span().map_or(0, |span| span.start);
+        let line = 1 + text.as_bytes()[..before]
+            .iter()
+            .filter(|b| **b == b'\n')
+            .count();
+        Failure::input(format!(
+            "'{}', line {line}: this is no state of trials: {}; name the file that an earlier run wrote with --state",
+            path.display(),
+            error.message()
+        ))
+    };
+    let digest: Digest = toml::from_str(&text).map_err(of_file)?;
+    let state = toml::from_str(&text).map_err(of_file)?;
+    match digest.content_sha256 {
+        Some(written) if written != digest_of(&text) => Err(Failure::input(format!(
+            "'{}': the file was changed after it was written ({DIGEST} is not that of its content), and corrections would no longer be those of the programs that were run; take a copy of it as it was, or begin with a new state (another --state, and the program without a correction as trial 1)",
+            path.display()
+        ))),
+        _ => Ok(state),
+    }
+}
+
+/// Digest of all lines but its own, whatever ends them: tools that copy a text change that.
+fn digest_of(text: &str) -> String {
+    let content = text.lines().filter(|line| !line.starts_with(DIGEST));
+    let content: Vec<&str> = content.collect();
+    sha256(content.join("\n").as_bytes())
+}
+
+fn state_text(state: &MirrorState) -> Answer<String> {
+    let content = toml::to_string(state)
+        .map_err(|error| Failure::input(format!("the state cannot be written: {error}")))?;
+    Ok(format!("{DIGEST} = \"{}\"\n{content}", digest_of(&content)))
 }

@@ -5,17 +5,23 @@
 
 mod answer;
 pub(crate) mod arguments;
-mod doubtful;
 mod fields;
-mod pairs;
-mod shapes;
 mod text;
+
+use kinetostat::Posture;
+use kinetostat_analysis::vibration::VibratingMachine;
+use kinetostat_dynamics::{ComplexMode, Damping, Mode, ModeKind};
+use kinetostat_report::{Drawing, Magnified, Moved, Placed};
 
 use crate::files::answer_files::{ClaimedFiles, Shown};
 use crate::modes::answer::answer;
 use crate::modes::arguments::ModesArgs;
+use crate::place::query::PlaceQuery;
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::numbers::number;
+use crate::vibration::pair::{frequency_hz, growth_per_s};
 use crate::vibration::subject;
+use crate::vibration::subject::refused;
 
 pub(crate) fn run(args: &ModesArgs) -> Answer<()> {
     if args.modes == 0 {
@@ -29,7 +35,7 @@ pub(crate) fn run(args: &ModesArgs) -> Answer<()> {
     let machine = subject::machine(&query, &posture, &held)?;
     let answer = answer(args, &query, &posture, &machine, &damping)?;
     let svg = match args.outputs.plot.is_some() {
-        true => shapes::drawn(&query, &posture, &machine, (&damping, args.modes))?,
+        true => drawn(&query, &posture, &machine, (&damping, args.modes))?,
         false => String::new(),
     };
     let shown = Shown {
@@ -39,4 +45,151 @@ pub(crate) fn run(args: &ModesArgs) -> Answer<()> {
         failure: None,
     };
     files.finish(&shown, &answer)
+}
+
+/// Upper limit of the modes of one drawing.
+const MOST: usize = 6;
+/// Size of a drawn phase, px.
+const WIDTH: usize = 560;
+const HEIGHT: usize = 470;
+/// Largest motion of a part with a straight path, times the natural length.
+const SMALL: f64 = 1e-6;
+
+/// A mode or a complex pair as it is drawn.
+struct Drawn {
+    /// Frequency and what becomes of it.
+    words: String,
+    /// Motion of the first phase, and of the second.
+    phases: [Mode; 2],
+    degrees: [u32; 2],
+}
+
+/// A pair whose parts swing out of step by more than this share is drawn a quarter of a period later.
+const STEP: f64 = 1e-3;
+
+fn of_mode(mode: &Mode) -> Drawn {
+    let kind = match mode.kind {
+        ModeKind::Free => ", free",
+        ModeKind::Unstable => ", UNSTABLE",
+        _ => "",
+    };
+    let mut back = mode.clone();
+    back.shape.neg_mut();
+    Drawn {
+        words: format!("{} Hz{kind}", number(mode.frequency_hz(), 4)),
+        phases: [mode.clone(), back],
+        degrees: [90, 270],
+    }
+}
+
+fn of_pair(machine: &VibratingMachine, pair: &ComplexMode) -> Drawn {
+    let [first, later] = machine.dynamics.shapes_of_pair(pair);
+    let growth = growth_per_s(pair);
+    let kind = match (growth, pair.grows()) {
+        (0.0, _) => String::new(),
+        (_, true) => format!(", GROWS by {} 1/s", number(growth, 3)),
+        (_, false) => format!(", dies away by {} 1/s", number(-growth, 3)),
+    };
+    let in_step = later.shape.amax() <= STEP * first.shape.amax();
+    let mut back = first.clone();
+    back.shape.neg_mut();
+    Drawn {
+        words: format!("{} Hz{kind}", number(frequency_hz(pair), 4)),
+        phases: [first, if in_step { back } else { later }],
+        degrees: if in_step { [90, 270] } else { [90, 180] },
+    }
+}
+
+/// The lowest modes below each other, two phases side by side: those in which the machine turns back, or of a complex pair
+/// whose parts swing out of step that in which the tool moves farthest and one a quarter of a period later.
+fn drawn(
+    query: &PlaceQuery,
+    posture: &Posture,
+    machine: &VibratingMachine,
+    (damping, modes): (&Damping, usize),
+) -> Answer<String> {
+    let modes = modes.min(MOST);
+    let complex = machine.complex_modes(damping, modes).map_err(refused)?;
+    let list: Vec<Drawn> = match &complex {
+        None => (machine.modes.modes.iter().take(modes))
+            .map(of_mode)
+            .collect(),
+        Some(found) => (found.modes.iter())
+            .map(|pair| of_pair(machine, pair))
+            .collect(),
+    };
+    let (width, height) = (2 * WIDTH, HEIGHT * list.len());
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n"
+    );
+    for (row, mode) in list.iter().enumerate() {
+        for column in 0..2 {
+            let panel = phase(query, posture, machine, (row, mode), column);
+            let place = format!(
+                "<svg x=\"{}\" y=\"{}\" width=\"{WIDTH}\" height=\"{HEIGHT}\"",
+                column * WIDTH,
+                row * HEIGHT
+            );
+            out.push_str(&nested(&panel, &place));
+            out.push('\n');
+        }
+    }
+    out.push_str("</svg>\n");
+    Ok(out)
+}
+
+/// A drawing with other sizes in its first element.
+fn nested(svg: &str, head: &str) -> String {
+    let Some(begin) = svg.find("<svg") else {
+        return String::new();
+    };
+    let Some(end) = svg[begin..].find('>') else {
+        return String::new();
+    };
+    let (own, rest) = svg[begin..].split_at(end);
+    let kept = own["<svg".len()..]
+        .split_inclusive('"')
+        .collect::<Vec<_>>()
+        .chunks(2)
+        .filter(|pair| {
+            let name = pair[0].trim_start();
+            !["width=", "height=", "x=", "y="]
+                .iter()
+                .any(|start| name.starts_with(start))
+        })
+        .flat_map(|pair| pair.iter().copied())
+        .collect::<String>();
+    format!("{head}{kept}{rest}")
+}
+
+fn phase(
+    query: &PlaceQuery,
+    posture: &Posture,
+    machine: &VibratingMachine,
+    (index, mode): (usize, &Drawn),
+    column: usize,
+) -> String {
+    // Both phases are drawn with the same step.
+    let most = mode.phases[0].shape.amax();
+    let step = SMALL / if most > 0.0 { most } else { 1.0 };
+    let from = Placed::solved(posture, &machine.equilibrium.state);
+    let to = Placed::solved(
+        posture,
+        &machine.moved_in(posture, &mode.phases[column], step),
+    );
+    let mut drawing = Drawing::of(&query.mechanism, from.clone());
+    drawing.title = format!(
+        "{}, mode {}: {}, phase {} deg",
+        query.name,
+        index + 1,
+        mode.words,
+        mode.degrees[column]
+    );
+    drawing.moved = Some(Moved {
+        from,
+        to,
+        magnified: Magnified::Direction,
+        name: "moved as in the mode".to_owned(),
+    });
+    drawing.svg().0
 }

@@ -7,4 +7,3 @@ pub(crate) mod arguments;
 pub(crate) mod joints;
 pub(crate) mod orientation;
 pub(crate) mod query;
-pub(crate) mod reachable;

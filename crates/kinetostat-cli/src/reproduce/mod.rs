@@ -3,19 +3,20 @@
 //! It takes the name of a table, an equation or a figure, or none, and gives the printed and the computed figures.
 
 pub(crate) mod arguments;
-mod text;
 
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use kinetostat_machining::number::{counted, without_zeros};
 use kinetostat_machining::{RunError, Watch};
-use kinetostat_reproduce::{Entry, IDS, ReproduceError, all, html, one};
+use kinetostat_reproduce::{Entry, IDS, Item, ReproduceError, Status, all, html, one};
 
 use crate::files::outputs::{Existing, Outputs};
 use crate::reproduce::arguments::ReproduceArgs;
-use crate::reproduce::text::{entry_text, summary};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
-use crate::ui::layout::wrapped;
+use crate::ui::layout::{self, listed, wrapped};
+use crate::ui::numbers::number;
 use crate::ui::progress::Progress;
 
 pub(crate) fn run(args: &ReproduceArgs) -> Answer<()> {
@@ -82,4 +83,151 @@ fn unknown(id: &str) -> Failure {
         "there is no entry '{id}'{nearest}\nThere are:\n{}",
         list.trim_end()
     ))
+}
+
+/// Words of a status, as in the legend of the summary.
+fn word(status: Status) -> &'static str {
+    match status {
+        Status::Agrees => "agrees",
+        Status::Erratum => "ERRATUM",
+        Status::NotReproduced => "NOT REPRODUCED",
+        Status::NoPrint => "",
+    }
+}
+
+/// Longest print that stands in its column; formulas get a line of their own.
+const PRINT: usize = 10;
+
+fn computed_text(item: &Item) -> String {
+    let Some(value) = item.computed else {
+        return String::new();
+    };
+    without_zeros(&number(value, 10)).to_owned()
+}
+
+/// One entry as a table. Numbers without print are many (they are points of figures): with all
+/// entries they are only counted.
+fn entry_text(out: &mut String, entry: &Entry, everything: bool) {
+    out.push_str(&wrapped(&format!("{}: {}", entry.id, entry.title), 0));
+    let shown: Vec<&Item> = entry
+        .items
+        .iter()
+        .filter(|item| everything || item.status != Status::NoPrint)
+        .collect();
+    let mut notes: Vec<&str> = Vec::new();
+    // Print, computed number, unit and status of every row; the formula below it if one is printed.
+    let mut cells: Vec<[String; 4]> = Vec::new();
+    let mut formulas: Vec<Option<&str>> = Vec::new();
+    for item in &shown {
+        let mut status = word(item.status).to_owned();
+        if !item.note.is_empty() {
+            let known = notes.iter().position(|note| *note == item.note);
+            let index = known.unwrap_or_else(|| {
+                notes.push(&item.note);
+                notes.len() - 1
+            });
+            status = format!("{status} [{}]", index + 1).trim_start().to_owned();
+        }
+        let (print, formula) = match item.printed.as_deref() {
+            Some(text) if text.chars().count() > PRINT => ("", Some(text)),
+            Some(text) => (text, None),
+            None => ("", None),
+        };
+        let print = print.to_owned();
+        cells.push([print, computed_text(item), item.unit.clone(), status]);
+        formulas.push(formula);
+    }
+    const HEADINGS: [&str; 4] = ["printed", "computed", "unit", "status"];
+    let width = |column: usize| {
+        let widths = cells.iter().map(|row| row[column].chars().count());
+        widths.max().unwrap_or(0).max(HEADINGS[column].len())
+    };
+    // Names that find no room in the row stand above it.
+    let taken: usize = (0..4).map(|column| width(column) + 2).sum();
+    let room = layout::WIDTH.saturating_sub(2 + taken);
+    let fits = |item: &Item| item.name.chars().count() <= room;
+    let table: Vec<Vec<String>> = shown
+        .iter()
+        .zip(&cells)
+        .map(|(item, [print, computed, unit, status])| {
+            vec![
+                if fits(item) {
+                    item.name.clone()
+                } else {
+                    String::new()
+                },
+                format!("{print:>width$}", width = width(0)),
+                format!("{computed:>width$}", width = width(1)),
+                unit.clone(),
+                status.clone(),
+            ]
+        })
+        .collect();
+    let [printed, computed, unit, status] = HEADINGS;
+    let heading = vec![
+        "number".to_owned(),
+        format!("{printed:>width$}", width = width(0)),
+        format!("{computed:>width$}", width = width(1)),
+        unit.to_owned(),
+        status.to_owned(),
+    ];
+    let table = listed(&[vec![heading], table].concat(), 2);
+    let mut lines = table.lines();
+    if let Some(heading) = lines.next().filter(|_| !shown.is_empty()) {
+        out.push_str(&format!("{heading}\n"));
+    }
+    for ((item, formula), line) in shown.iter().zip(&formulas).zip(lines) {
+        if !fits(item) {
+            out.push_str(&wrapped(&item.name, 2));
+        }
+        out.push_str(line);
+        out.push('\n');
+        if let Some(formula) = formula {
+            out.push_str(&wrapped(&format!("printed: {formula}"), 6));
+        }
+    }
+    let left = entry.items.len() - shown.len();
+    if left > 0 {
+        let words = format!(
+            "{} without print: kinetostat reproduce {}",
+            counted(left, "number"),
+            entry.id
+        );
+        out.push_str(&wrapped(&words, 2));
+    }
+    for (index, note) in notes.iter().enumerate() {
+        out.push_str(&wrapped(&format!("[{}] {note}", index + 1), 4));
+    }
+    out.push('\n');
+}
+
+fn summary(out: &mut String, entries: &[Entry], one: bool) {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for item in entries.iter().flat_map(|entry| &entry.items) {
+        let kind = match item.status {
+            Status::Agrees => "agree",
+            Status::Erratum => "errata",
+            Status::NotReproduced => "not reproduced",
+            Status::NoPrint => "without print",
+        };
+        *counts.entry(kind).or_default() += 1;
+    }
+    let count = |kind: &str| counts.get(kind).copied().unwrap_or(0);
+    let all: usize = counts.values().sum();
+    let place = if one {
+        String::new()
+    } else {
+        format!(" in {} entries", entries.len())
+    };
+    out.push_str(&format!(
+        "{}{place}: {} agree, {}, {} not reproduced, {} without print\n",
+        counted(all, "number"),
+        count("agree"),
+        match count("errata") {
+            1 => "1 erratum".to_owned(),
+            n => format!("{n} errata"),
+        },
+        count("not reproduced"),
+        count("without print")
+    ));
 }

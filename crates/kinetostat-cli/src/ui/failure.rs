@@ -8,7 +8,7 @@ use kinetostat_machining::number::apart;
 use kinetostat_model::{ModelError, TextStyle, shortened};
 use kinetostat_program::WriteError;
 
-use crate::ui::pose::pose_text;
+use crate::ui::numbers::pose_text;
 use crate::ui::safe_text::safe;
 
 /// Exit codes, as in the table of `kinetostat --help`.

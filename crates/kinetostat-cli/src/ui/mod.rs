@@ -14,7 +14,6 @@ pub(crate) mod json;
 pub(crate) mod language;
 pub(crate) mod layout;
 pub(crate) mod numbers;
-pub(crate) mod pose;
 pub(crate) mod progress;
 pub(crate) mod safe_text;
 pub(crate) mod screen;

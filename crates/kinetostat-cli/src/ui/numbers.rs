@@ -1,5 +1,6 @@
 //! Numbers and vectors as people read them.
 
+use kinetostat::Pose;
 use kinetostat::number::largest_size;
 use kinetostat_machining::number as formatter;
 use kinetostat_machining::number::without_zeros;
@@ -40,4 +41,18 @@ pub(crate) fn triple(v: [f64; 3], shown: impl Fn(f64) -> String) -> String {
 /// A number as short as it can be at four decimals.
 pub(crate) fn short(value: f64) -> String {
     without_zeros(&fixed(value, 4)).to_owned()
+}
+
+/// A pose to copy: `position (0, 760, 0) mm, rotation vector (0, 0, 53.13) deg`.
+pub(crate) fn pose_text(pose: &Pose) -> String {
+    let clean = |x: f64| (x * 1e6).round() / 1e6 + 0.0;
+    format!(
+        "position {} mm, rotation vector {} deg",
+        triple((pose.translation.vector * 1e3).into(), |x| clean(x)
+            .to_string()),
+        triple(
+            pose.rotation.scaled_axis().map(f64::to_degrees).into(),
+            |x| clean(x).to_string()
+        )
+    )
 }

@@ -13,7 +13,6 @@ mod cut;
 mod fit;
 mod least_squares;
 mod series;
-mod student;
 
 pub use cut::MeasuredCut;
 pub use fit::{Coefficient, CoefficientFit, fit_coefficients};

@@ -19,8 +19,6 @@ mod matching;
 mod outliers;
 mod read;
 mod report;
-mod search;
-mod smoothing;
 
 pub use activity::Activity;
 pub use conditioning::{Conditioned, Conditioning, OutlierTreatment};

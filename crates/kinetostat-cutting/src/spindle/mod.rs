@@ -4,7 +4,6 @@
 //! finding.
 
 mod curve;
-mod limit;
 
 pub use curve::SpindleCurve;
-pub use limit::{SpindleFinding, SpindleLimit, SpindlePoint};
+pub use curve::{SpindleFinding, SpindleLimit, SpindlePoint};

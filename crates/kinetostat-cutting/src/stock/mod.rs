@@ -14,7 +14,6 @@ mod arcs;
 mod blank;
 mod carve;
 mod corner;
-mod end;
 mod faces;
 mod grid;
 mod height_map;

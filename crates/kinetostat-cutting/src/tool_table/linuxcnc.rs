@@ -7,7 +7,6 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::{CutError, CutErrorKind, Result, within};
-use crate::tool_table::bounds::{MOST_BYTES, MOST_TOOLS};
 
 /// Units of the machine, in which `tool.tbl` counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -221,3 +220,8 @@ fn word(entry: &str) -> Result<(u8, f64)> {
 fn wrong(found: String, expected: &str) -> CutError {
     CutError::new(CutErrorKind::File, "line of tool.tbl", found, expected)
 }
+
+/// Maximum number of bytes of a file.
+pub(crate) const MOST_BYTES: usize = 10_000_000;
+/// Maximum number of tools of a file.
+pub(crate) const MOST_TOOLS: usize = 10_000;

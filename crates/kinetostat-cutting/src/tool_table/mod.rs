@@ -4,7 +4,6 @@
 //! `tool.tbl` has no teeth and no shape: an entry of ours with the same number completes it, and a tool that lacks one is
 //! named when it is asked for. Source of the format: LinuxCNC, `docs/src/gcode/tool-compensation.adoc`, "Tool Table Format".
 
-mod bounds;
 mod entry;
 mod linuxcnc;
 mod messages;

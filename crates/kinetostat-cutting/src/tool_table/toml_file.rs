@@ -7,9 +7,8 @@ use serde_spanned::Spanned;
 use crate::error::{CutError, CutErrorKind, Result, within};
 use crate::source::Source;
 use crate::tool::{RunOut, Shape, Tool};
-use crate::tool_table::bounds::{MOST_BYTES, MOST_TOOLS};
 use crate::tool_table::entry::ToolEntry;
-use crate::tool_table::linuxcnc::{LinuxCncTable, LinuxCncTool};
+use crate::tool_table::linuxcnc::{LinuxCncTable, LinuxCncTool, MOST_BYTES, MOST_TOOLS};
 use crate::tool_table::written::{File, ShapeName, WrittenTool};
 
 /// Shares of the diameter: a D of `tool.tbl` up to this far from it is the measured diameter, one up to this far from zero

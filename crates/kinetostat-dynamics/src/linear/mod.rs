@@ -1,7 +1,6 @@
 //! A machine linearised about a loaded equilibrium: `M x'' + C x' + (K - H) x = B^T w` [D3, D5].
 
 pub(crate) mod build;
-pub(crate) mod chain;
 pub(crate) mod limb;
 pub(crate) mod machine;
 pub(crate) mod places;

@@ -1,7 +1,6 @@
 //! Modes about the loaded equilibrium: signed frequencies, shapes, and what takes part in them.
 
 pub(crate) mod complex;
-pub(crate) mod eigenvalues;
 pub(crate) mod mode;
 pub(crate) mod moved;
 pub(crate) mod pair_shape;

@@ -8,11 +8,8 @@
 //! The dense matrices of [`crate::LinearDynamics`] are the reference; one suite of tests is over both
 //! (`tests/dynamics/swept.rs`).
 
-pub(crate) mod element;
 pub(crate) mod factor;
-pub(crate) mod krylov;
 pub(crate) mod long_chain;
 pub(crate) mod lowest;
 pub(crate) mod machine;
-pub(crate) mod products;
 pub(crate) mod stages;

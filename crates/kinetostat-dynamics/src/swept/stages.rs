@@ -5,14 +5,13 @@
 //! (`kinetostat::chain`), in exponential coordinates, so that all is symmetric.
 
 use kinetostat::chain::ChainPieces;
-use kinetostat::model::Element;
-use kinetostat::spatial::hat;
+use kinetostat::model::{Element, Kinematics, SegmentMass, turn_rates};
+use kinetostat::spatial::{hat, shift_matrix};
 use kinetostat::{Chain, Wrench};
-use nalgebra::{DMatrix, Matrix6, Matrix6xX, Vector6};
+use nalgebra::{DMatrix, Matrix3, Matrix6, Matrix6xX, Vector3, Vector6};
 
 use crate::error::Result;
-use crate::mass::body;
-use crate::swept::element::{self, Both, shift_of};
+use crate::mass::{body, segment};
 
 /// Coordinates that are eliminated together: a spring, or a passive joint.
 #[derive(Clone, Debug)]
@@ -149,7 +148,7 @@ impl Stages {
                 return Ok(None);
             }
             let twists = own.stages[stage].twists.clone();
-            element::add(
+            add_segment(
                 segment,
                 kinematics,
                 &tip,
@@ -214,4 +213,61 @@ impl Stages {
 
 pub(crate) fn symmetric(a: &Matrix6<f64>) -> Matrix6<f64> {
     (a + a.transpose()) * 0.5
+}
+
+/// A symmetric form in the motion of the near side (6) and the own coordinates (k) of a stage.
+#[derive(Clone, Debug)]
+pub(crate) struct Both {
+    pub near: Matrix6<f64>,
+    pub across: Matrix6xX<f64>,
+    pub own: DMatrix<f64>,
+}
+
+impl Both {
+    pub fn zeros(count: usize) -> Self {
+        Self {
+            near: Matrix6::zeros(),
+            across: Matrix6xX::zeros(count),
+            own: DMatrix::zeros(count, count),
+        }
+    }
+}
+
+/// Adds the mass of a segment; `twists` are those of the spring's coordinates at the tip's place.
+fn add_segment(
+    own: &SegmentMass,
+    kinematics: &Kinematics,
+    tip: &Vector3<f64>,
+    twists: &Matrix6xX<f64>,
+    to: &mut Both,
+) {
+    if own.total() == 0.0 {
+        return;
+    }
+    let eta = own.deflection(kinematics);
+    let inertia = segment::element(own, &eta);
+    let axes = kinematics.frame(own.near).0.transpose();
+    let both = |angular: &Matrix3<f64>| {
+        let mut turn = Matrix6::zeros();
+        turn.fixed_view_mut::<3, 3>(0, 0).copy_from(&axes);
+        turn.fixed_view_mut::<3, 3>(3, 3).copy_from(angular);
+        turn
+    };
+    let near = both(&axes) * shift_of(kinematics, own.near, tip);
+    let rates = turn_rates(eta[3], eta[4])
+        .try_inverse()
+        .unwrap_or_else(|| Matrix3::from_element(f64::NAN));
+    let far = both(&(rates * axes)) * shift_of(kinematics, own.far, tip) * twists;
+    let block = |i: usize, j: usize| Matrix6::from_fn(|r, c| inertia[(i + r, j + c)]);
+    to.near += near.transpose() * block(0, 0) * near;
+    to.across += near.transpose() * block(0, 6) * &far;
+    let moved = block(6, 6) * &far;
+    to.own += DMatrix::from_fn(far.ncols(), far.ncols(), |i, j| {
+        far.column(i).dot(&moved.column(j))
+    });
+}
+
+/// Motion of a node by that of its part at the tip's place.
+fn shift_of(kinematics: &Kinematics, node: usize, tip: &nalgebra::Vector3<f64>) -> Matrix6<f64> {
+    shift_matrix(&(kinematics.node_position(node) - tip))
 }

@@ -9,7 +9,6 @@ mod parquet;
 mod polylines;
 #[cfg(feature = "parquet")]
 mod rows;
-mod vtk;
 
 pub use grid::{FieldAxis, FieldColumn, FieldError, Fields};
 pub use polylines::{PointQuantity, Polylines};

@@ -8,10 +8,8 @@
 //! Source: FANUC, R-30iB controller, operator's manual (basic operation), chapter 4 "Program structure", and the ASCII
 //! listings of 22 public programs (docs/robot-programs.csv).
 
-pub(crate) mod beside;
 pub(crate) mod configuration;
 mod control;
-mod ends;
 mod expression;
 mod found;
 mod instructions;

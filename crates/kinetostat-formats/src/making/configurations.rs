@@ -2,8 +2,7 @@
 
 use crate::making::fault::MakeFinding;
 use crate::making::limits::MakeLanguage;
-use crate::making::reconfigured::changes;
-use crate::making::stated_configurations::{Switches, text_of};
+use crate::making::reconfigured::{Switches, changes, text_of};
 use crate::making::step::StatedConfiguration;
 use crate::model::language::Language;
 use crate::model::motion::{Motion, MotionKind};

@@ -7,8 +7,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use crate::making::action::EventAction;
 use crate::making::names::of_part;
 use crate::making::numbers::{angles, coordinates, fixed, short};
-use crate::making::parts::parts;
-use crate::making::step::{MadeMotion, Step, Way};
+use crate::making::step::{MadeMotion, Step, Way, parts};
 use crate::making::template::Template;
 use crate::model::orientation::OrientationText;
 

@@ -1,23 +1,24 @@
 //! The whole way: from a path to files that were read again.
 
-use kinetostat_program::Path;
+use std::collections::VecDeque;
 
-use crate::making::action::EventAction;
+use kinetostat_program::{Path, SpindleRotation};
+use nalgebra::Vector3;
+
+use crate::making::action::{Coolant, EventAction};
 use crate::making::again::read_again;
 use crate::making::compare::{Kept, compare};
 use crate::making::course::Course;
-use crate::making::crowded::crowded;
 use crate::making::events::SourceEvent;
 use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::frames_said::of_frames;
 use crate::making::limits::MakeLanguage;
 use crate::making::names::{checked, parts_checked};
-use crate::making::numbers::short;
-use crate::making::parts::parts;
+use crate::making::numbers::{coordinates, fixed, short};
 use crate::making::plan::plan;
-use crate::making::step::{MadeMotion, Step, Way};
+use crate::making::step::{MadeMotion, Step, Way, parts};
 use crate::making::template::{Rapids, Template};
-use crate::making::{apt, csv, gcode, krl, ls, rapid, stated};
+use crate::making::{csv, gcode, krl, ls, rapid, stated};
 
 /// A made program.
 #[derive(Debug, Clone, PartialEq)]
@@ -138,7 +139,7 @@ pub(crate) fn make_along(
         MakeLanguage::Krl => krl::files(steps, &name, most, template, MADE_BY),
         MakeLanguage::Rapid => rapid::files(steps, &name, most, template, MADE_BY),
         MakeLanguage::FanucLs => ls::files(steps, &name, most, template, MADE_BY),
-        MakeLanguage::Apt => apt::files(steps, &name, template, MADE_BY),
+        MakeLanguage::Apt => files(steps, &name, template, MADE_BY),
         MakeLanguage::Gcode => gcode::files(steps, &name, template, MADE_BY),
         MakeLanguage::Csv => csv::files(steps, &name, template, MADE_BY),
     };
@@ -272,4 +273,135 @@ fn zones(template: &Template, language: MakeLanguage) -> String {
             zones.feeds_mm, zones.rapids_mm
         ),
     }
+}
+
+/// Axes nearer to z than this are z.
+const UPRIGHT: f64 = 1e-12;
+
+/// The file of a program.
+pub(crate) fn files(
+    steps: &[Step],
+    name: &str,
+    template: &Template,
+    made_by: &str,
+) -> Vec<(String, Vec<u8>)> {
+    let mut motions = steps.iter().filter_map(Step::motion);
+    let leans = motions.any(|motion| (motion.axis - Vector3::z()).norm() > UPRIGHT);
+    let mut text = format!(
+        "PARTNO/{}\n$$ {made_by}\nUNITS/MM\n",
+        name.to_ascii_uppercase()
+    );
+    if leans {
+        text += "MULTAX/ON\n";
+    }
+    let mut feed = String::new();
+    for step in steps {
+        match step {
+            Step::Note(note) => text += &format!("$$ {note}\n"),
+            Step::Tool(number) => text += &format!("LOADTL/{number}\n"),
+            Step::Statement(statement) => text += &format!("{statement}\n"),
+            Step::Action(action) => text += &action_text(*action),
+            Step::Motion(motion) => {
+                let per_minute = short(
+                    60.0 * motion.speed_mm_per_s,
+                    template.speed_decimals.unwrap_or(9),
+                );
+                let wanted = format!("FEDRAT/{per_minute},MMPM\n");
+                if motion.rapid {
+                    text += "RAPID\n";
+                } else if wanted != feed {
+                    text += &wanted;
+                    feed = wanted;
+                }
+                text += &format!(
+                    "GOTO/{}",
+                    coordinates(&motion.end, template.position_decimals).join(",")
+                );
+                if leans {
+                    let axis =
+                        [0, 1, 2].map(|i| fixed(motion.axis[i], template.quaternion_decimals));
+                    text += &format!(",{}", axis.join(","));
+                }
+                text.push('\n');
+            }
+        }
+    }
+    vec![(format!("{name}.apt"), (text + "FINI\n").into_bytes())]
+}
+
+fn action_text(action: EventAction) -> String {
+    match action {
+        EventAction::Wait { seconds } => format!("DELAY/{}\n", short(seconds, 6)),
+        EventAction::Stop => "STOP\n".to_owned(),
+        EventAction::OptionalStop => "OPSTOP\n".to_owned(),
+        EventAction::Spindle { rotation, rpm } => {
+            let sense = match rotation {
+                SpindleRotation::Clockwise => "CLW",
+                SpindleRotation::CounterClockwise => "CCLW",
+                SpindleRotation::Stopped => return "SPINDL/OFF\n".to_owned(),
+            };
+            match rpm {
+                Some(rpm) => format!("SPINDL/{},RPM,{sense}\n", short(rpm, 3)),
+                None => format!("SPINDL/{sense}\n"),
+            }
+        }
+        EventAction::Coolant(Coolant::Mist) => "COOLNT/MIST\n".to_owned(),
+        EventAction::Coolant(Coolant::Flood) => "COOLNT/FLOOD\n".to_owned(),
+        EventAction::Coolant(Coolant::Off) => "COOLNT/OFF\n".to_owned(),
+    }
+}
+
+/// Window of consecutive motions: look-ahead compensates a single short one.
+const IN_A_ROW: usize = 16;
+
+/// The time of a motion that controllers of arms plan without slowing down, s: KUKA interpolates every 4 or 12 ms, FANUC every 8 ms.
+const SHORTEST_S: f64 = 0.008;
+
+/// The feeds of a program that are too short for their speed, in words; none where all are long enough.
+fn crowded(steps: &[Step]) -> Option<MakeFinding> {
+    let mut window: VecDeque<f64> = VecDeque::new();
+    let (mut count, mut most_per_s, mut shortest_mm) = (0, 0.0, f64::INFINITY);
+    let mut first = None;
+    let mut from: Option<&MadeMotion> = None;
+    for step in steps {
+        let Step::Motion(motion) = step else {
+            if !matches!(step, Step::Note(_)) {
+                window.clear();
+            }
+            continue;
+        };
+        let way_mm = from.map_or(0.0, |from| (motion.end - from.end).norm());
+        from = Some(motion);
+        if motion.rapid || motion.way != Way::Line || way_mm == 0.0 {
+            window.clear();
+            continue;
+        }
+        let time_s = way_mm / motion.speed_mm_per_s;
+        if time_s < SHORTEST_S {
+            count += 1;
+            if way_mm < shortest_mm {
+                shortest_mm = way_mm;
+            }
+        }
+        window.push_back(time_s);
+        if window.len() > IN_A_ROW {
+            window.pop_front();
+        }
+        let rate = IN_A_ROW as f64 / window.iter().sum::<f64>();
+        if window.len() == IN_A_ROW && rate > 1.0 / SHORTEST_S {
+            first.get_or_insert(motion.line);
+            if rate > most_per_s {
+                most_per_s = rate;
+            }
+        }
+    }
+    first.map(|line| {
+        MakeFinding::of(
+            line,
+            format!(
+                "{count} motions are shorter than {:.0} ms at their speed, the shortest {shortest_mm:.3} mm, up to {most_per_s:.0} of them in a second, here first: an arm may slow down there; let the CAM system write longer ones (a wider tolerance of its chords), or cut more slowly",
+                1e3 * SHORTEST_S
+            ),
+        )
+    })
 }

@@ -1,22 +1,19 @@
 //! A program of one robot written for another.
 
-use crate::making::computed_frames::computed_frames;
-use crate::making::configurations;
 use crate::making::dynamics::{dynamics, other_speeds, turning_speeds};
 use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
 use crate::making::make::{Made, make_along};
-use crate::making::of_external_axes::external_axes;
 use crate::making::of_tools::{faults_at, stated, tools_of_source};
-use crate::making::outside_calls::outside_calls;
-use crate::making::reconfigured;
 use crate::making::robot_course::course_of;
 use crate::making::robot_faults::{arcs_from_elsewhere, not_once};
 use crate::making::stated::{is_identity, of_frame};
 use crate::making::template::{StatedFrame, StatedTool, Template};
-use crate::model::frame::FrameUse;
+use crate::making::{configurations, reconfigured};
+use crate::model::frame::{Frame, FrameUse};
 use crate::model::language::Language;
 use crate::model::motion::{Motion, Zone};
+use crate::model::outside_call::by_name;
 use crate::model::program::RobotProgram;
 use crate::model::site::TargetSite;
 use crate::path::axis_turns::at_z;
@@ -320,4 +317,96 @@ fn base_by_number(
             ),
         )
     })
+}
+
+/// Each, by the line of its first motion, where the template does not say what it is.
+fn computed_frames(program: &RobotProgram, template: &Template) -> Vec<MakeError> {
+    let of_source = [
+        template.tool == StatedTool::default() && template.tools.is_empty(),
+        template.base == StatedFrame::default(),
+    ];
+    let mut named: Vec<&str> = Vec::new();
+    let mut faults = Vec::new();
+    for motion in &program.motions {
+        let uses = [
+            ("tool", "[tool]", &motion.tool),
+            ("work object", "[base]", &motion.work_object),
+        ];
+        for ((what, key, used), _) in uses.into_iter().zip(of_source).filter(|(_, own)| *own) {
+            let Frame::Unknown { reason } = &used.frame else {
+                continue;
+            };
+            if !is_computed(program.language, used) || named.contains(&used.name.as_str()) {
+                continue;
+            }
+            named.push(&used.name);
+            faults.push(MakeError::at(
+                motion.line,
+                format!("which {what} `{}` is, is not known: {reason}", used.name),
+                format!("write its number, or state it in the template under {key}"),
+            ));
+        }
+    }
+    faults
+}
+
+/// An element of an array whose index is no number, or the value of an expression or of a variable.
+fn is_computed(language: Language, used: &FrameUse) -> bool {
+    let name = used.name.as_str();
+    let Some((_, inside)) = name.split_once(['[', '{', '(']) else {
+        // Without an assignment to $TOOL and $BASE, the controller's frames are valid.
+        return language.numbers_frames() && !name.starts_with('$');
+    };
+    let index = inside.trim_end_matches([']', '}', ')']);
+    index.trim().parse::<u32>().is_err()
+}
+
+/// Findings on external axes that are not at 0 throughout: first position, and motion.
+fn external_axes(program: &RobotProgram) -> Vec<MakeFinding> {
+    let all = || program.motions.iter().map(|motion| &motion.site.external);
+    let count = all().map(Vec::len).max().unwrap_or_default();
+    let mut found = Vec::new();
+    for axis in 0..count {
+        let at = |values: &Vec<Option<f64>>| values.get(axis).copied().flatten();
+        let Some(first) = program
+            .motions
+            .iter()
+            .find(|motion| at(&motion.site.external).is_some_and(|value| value != 0.0))
+        else {
+            continue;
+        };
+        let value = at(&first.site.external).unwrap_or_default();
+        let mut before = program
+            .motions
+            .iter()
+            .take_while(|motion| motion.line != first.line);
+        let is_open =
+            |motion: &Motion| motion.target.pose().is_some() && at(&motion.site.external).is_none();
+        let moves = all().filter_map(at).any(|other| other != value) || before.any(is_open);
+        let name = program.language.name_of_external_axis(axis);
+        found.push(MakeFinding::of(
+            Some(first.line),
+            match moves {
+                true => format!("{name} moves along the source: the made program does not state it, and leaves it where it is"),
+                false => format!("{name} stands at {value} in the source: the made program does not state it; bring it there before it runs"),
+            },
+        ));
+    }
+    found
+}
+
+/// Each name once, with its lines.
+fn outside_calls(program: &RobotProgram, file: usize) -> Vec<MakeFinding> {
+    let all = by_name(&program.outside_calls).into_iter().map(|of| {
+        let message = of.message(program.language, Some("it is a note here"));
+        let other = program.files.get(of.file).filter(|_| of.file != file);
+        match other {
+            Some(other) => {
+                let place = format!("'{}', line {}", other.name(), of.line());
+                MakeFinding::of(None, format!("{place}: {message}"))
+            }
+            None => MakeFinding::of(of.line(), message),
+        }
+    });
+    all.collect()
 }

@@ -9,9 +9,8 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use crate::making::action::EventAction;
 use crate::making::names::{base_name, name_of_tool, of_part};
 use crate::making::numbers::{angles, coordinates, fixed, short};
-use crate::making::parts::parts;
 use crate::making::stated::is_number_zero;
-use crate::making::step::{MadeMotion, Step, Way};
+use crate::making::step::{MadeMotion, Step, Way, parts};
 use crate::making::template::Template;
 use crate::model::orientation::OrientationText;
 

@@ -2,13 +2,12 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use crate::making::block_order::Part;
 use crate::making::course::{Course, at, counted_on_lines, place_of};
 use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
 use crate::making::of_tools::changes_of_source;
 use crate::making::robot_events::events_of_robot;
-use crate::making::routines::running_lines;
+use crate::making::routines::{Part, running_lines};
 use crate::making::statements::comment_behind;
 use crate::model::language::Language;
 use crate::model::program::RobotProgram;

@@ -3,12 +3,15 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use crate::making::block_order::{Part, Running, running_blocks, until_end};
-use crate::making::blocks::Blocks;
+use crate::heidenhain::blocks::{Block as Statement, blocks_of};
+use crate::heidenhain::flow::{Step, labels_of, order, step_of};
 use crate::making::robot_events::instructions;
 use crate::making::statements::statements;
 use crate::model::language::Language;
 use crate::model::program::RobotProgram;
+use crate::model::slash_blocks::SlashBlocks;
+use crate::siemens::block::{Block, What};
+use crate::siemens::values::{Variables, whole};
 use crate::text::source::SourceFile;
 
 /// Deepest nesting of calls that is followed.
@@ -193,4 +196,153 @@ impl Walk<'_> {
         let behind = statement.strip_prefix(name.as_str())?.trim_start();
         self.language.is_call(behind).then_some(index)
     }
+}
+
+/// Blocks that run on a condition or again and again.
+pub(crate) struct Blocks {
+    language: Language,
+    open: usize,
+    /// The line follows a jump, or its routine has one.
+    is_lost: bool,
+}
+
+impl Blocks {
+    /// State at the start of a routine.
+    pub(crate) fn of(language: Language) -> Self {
+        Self {
+            language,
+            open: 0,
+            is_lost: false,
+        }
+    }
+
+    /// True if the line runs exactly once, unconditionally.
+    pub(crate) fn is_certain(&self) -> bool {
+        self.open == 0 && !self.is_lost
+    }
+
+    /// Jumps make the order of lines no order of time.
+    pub(crate) fn jump(&mut self, words: &[String]) {
+        let jumps = self.language.jumps();
+        self.is_lost |= words.iter().any(|word| jumps.contains(&word.as_str()));
+    }
+
+    /// The words of the next line.
+    pub(crate) fn enter(&mut self, words: &[String]) {
+        let Some(first) = words.first().map(String::as_str) else {
+            return;
+        };
+        let has = |word: &str| words.iter().any(|own| own == word);
+        let ends = [
+            "ENDIF",
+            "ENDFOR",
+            "ENDWHILE",
+            "ENDTEST",
+            "ENDLOOP",
+            "UNTIL",
+            "ENDSWITCH",
+        ];
+        let closes = words
+            .iter()
+            .filter(|word| ends.contains(&word.as_str()))
+            .count();
+        self.open += usize::from(self.language.opens_block(words));
+        match self.open.checked_sub(closes) {
+            Some(open) => self.open = open,
+            None => self.is_lost = true,
+        }
+        // Statements after these only run if the routine was not left before.
+        let leaves = [
+            "RETURN",
+            "EXIT",
+            "EXITCYCLE",
+            "RETRY",
+            "TRYNEXT",
+            "RAISE",
+            "ERROR",
+            "UNDO",
+            "BACKWARD",
+        ];
+        let is_statement = leaves.contains(&first) && words.len() == 1 || has("RETURN");
+        self.is_lost |= is_statement && self.language.is_of_robot();
+        self.is_lost |= self.language.ends_of_run().contains(&first);
+    }
+}
+
+/// A line in the order of the run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Running {
+    pub line: usize,
+    /// The block runs exactly once, unconditionally.
+    pub is_certain: bool,
+    /// Part of the line that runs here.
+    pub part: Part,
+}
+
+/// Part of a line that runs at a place of the run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Part {
+    /// The rest of it: what stands on it behind the calls that are followed.
+    Rest,
+    /// A call and no more; what it calls stands behind it.
+    Call,
+    /// Text before the call of a routine (its name in capitals); the routine's lines follow.
+    Before(String),
+}
+
+/// Running blocks of a Heidenhain program, with the labels that it calls.
+pub(crate) fn running_blocks(source: &SourceFile) -> Vec<Running> {
+    let bytes = source.bytes();
+    let blocks = blocks_of(bytes);
+    let begins = |block: &Statement| {
+        let words = block.words(bytes);
+        words.first().is_some_and(|word| word.is("BEGIN"))
+    };
+    let first = blocks.iter().position(begins).unwrap_or(0);
+    let (labels, _) = labels_of(bytes, &blocks);
+    let step = |at: usize| step_of(bytes, &blocks[at], SlashBlocks::Run);
+    let ordered = order(first, blocks.len(), &labels, step).unwrap_or_default();
+    let lines = |at: usize| {
+        let lines = &blocks[at].lines;
+        let is_followed = matches!(step(at), Step::Call(_));
+        let last = source.line_of(lines.end.saturating_sub(1).max(lines.start));
+        (source.line_of(lines.start)..=last).map(move |line| Running {
+            line,
+            is_certain: true,
+            part: match is_followed {
+                true => Part::Call,
+                false => Part::Rest,
+            },
+        })
+    };
+    (0..first).chain(ordered).flat_map(lines).collect()
+}
+
+/// Running blocks of a SINUMERIK program with linear control flow: up to the block that ends it.
+pub(crate) fn until_end(source: &SourceFile) -> Vec<Running> {
+    let last = last_line(source).unwrap_or(source.line_count());
+    let certain = |line: usize| Running {
+        line,
+        is_certain: true,
+        part: Part::Rest,
+    };
+    (1..=last).map(certain).collect()
+}
+
+/// The line of the block that ends a program.
+fn last_line(source: &SourceFile) -> Option<usize> {
+    let variables = Variables::default();
+    (1..=source.line_count()).find(|line| {
+        let block = Block::of(source.bytes(), source.range_of(*line));
+        block.is_ok_and(|(block, _)| {
+            block.items.iter().any(|item| match &item.what {
+                What::Name => source.part(&item.name).eq_ignore_ascii_case(b"RET"),
+                What::Value { value, .. } if source.part(&item.name) == b"M" => {
+                    let number = variables.number(source.bytes(), value).ok().and_then(whole);
+                    matches!(number, Some(2 | 17 | 30))
+                }
+                _ => false,
+            })
+        })
+    })
 }

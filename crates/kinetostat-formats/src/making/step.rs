@@ -1,5 +1,7 @@
 //! Steps of a made program.
 
+use std::ops::Range;
+
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::making::action::EventAction;
@@ -99,4 +101,20 @@ impl Step {
             _ => None,
         }
     }
+}
+
+/// Ranges of the steps, one for each part.
+pub(crate) fn parts(steps: &[Step], most: usize) -> Vec<Range<usize>> {
+    let mut parts = Vec::new();
+    let (mut start, mut places) = (0, 0);
+    for (index, step) in steps.iter().enumerate() {
+        let more = step.motion().map_or(0, |motion| motion.places());
+        if places + more > most && places > 0 {
+            parts.push(start..index);
+            (start, places) = (index, 0);
+        }
+        places += more;
+    }
+    parts.push(start..steps.len());
+    parts
 }

@@ -11,7 +11,6 @@ use crate::model::motion::{Motion, MotionKind};
 use crate::model::orientation::OrientationText;
 use crate::model::site::{PoseText, TargetSite};
 use crate::path::axis_turns::is_by_axis;
-use crate::path::circle::about;
 use crate::path::maker::Maker;
 use crate::text::source::SourceFile;
 
@@ -158,4 +157,31 @@ fn nearest(rotation: UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> UnitQuate
         true => UnitQuaternion::new_unchecked(-rotation.into_inner()),
         false => rotation,
     }
+}
+
+/// The arc from `start` to `end` about a centre and an axis by an angle in rad, right-handed; the rise is even.
+fn about(
+    start: &Vector3<f64>,
+    end: &Vector3<f64>,
+    centre: &Vector3<f64>,
+    axis: &Vector3<f64>,
+    angle_rad: f64,
+) -> Option<Arc> {
+    let across = |place: &Vector3<f64>| {
+        let arm = place - centre;
+        arm - axis * arm.dot(axis)
+    };
+    let (arm, last) = (across(start), across(end));
+    let first = arm.try_normalize(1e-9)?;
+    Some(Arc {
+        centre: start - arm,
+        first,
+        second: axis.cross(&first),
+        axis: *axis,
+        start_angle: 0.0,
+        sweep: angle_rad,
+        start_radius: arm.norm(),
+        end_radius: last.norm(),
+        rise: (end - start).dot(axis),
+    })
 }

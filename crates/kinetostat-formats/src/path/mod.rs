@@ -9,9 +9,7 @@
 pub(crate) mod all_faults;
 pub(crate) mod axis_angles;
 pub(crate) mod axis_turns;
-pub(crate) mod circle;
 pub(crate) mod correctable;
-pub(crate) mod far_places;
 pub(crate) mod fault;
 pub(crate) mod header;
 pub(crate) mod kept_lines;
@@ -25,4 +23,3 @@ pub(crate) mod read_again;
 pub(crate) mod tools;
 pub(crate) mod turned_axes;
 pub(crate) mod turned_by_correction;
-pub(crate) mod turning_faults;

@@ -3,10 +3,9 @@
 use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::RobotProgram;
-use crate::path::far_places::too_far;
+use crate::model::site::not_evenly;
 use crate::path::fault::{PathError, fault_at};
 use crate::path::tools::{same_frame, tools_of};
-use crate::path::turning_faults::turning_otherwise;
 
 /// The motions to poses.
 pub(crate) fn motions_to_poses(program: &RobotProgram) -> Vec<&Motion> {
@@ -129,4 +128,56 @@ fn closed_circles(program: &RobotProgram) -> Vec<PathError> {
     (program.motions.windows(2).enumerate())
         .filter_map(fault)
         .collect()
+}
+
+/// Coordinates beyond this are no machine's, as in G-code, mm.
+const FARTHEST_MM: f64 = 1e6;
+
+/// Reason and remedy of a motion to an implausibly distant point; `None` if it is near enough.
+fn too_far(motion: &Motion) -> Option<(String, &'static str)> {
+    let value = farthest_mm(motion).filter(|value| value.is_nan() || value.abs() > FARTHEST_MM)?;
+    Some((
+        format!("it leads to a coordinate of {value:e} mm, farther than any machine reaches"),
+        "check the number and the unit of lengths",
+    ))
+}
+
+/// The largest coordinate of the poses of a motion, mm; one that is no number where there is one.
+fn farthest_mm(motion: &Motion) -> Option<f64> {
+    let via = match &motion.kind {
+        MotionKind::Circular { via } => via.pose(),
+        _ => None,
+    };
+    let places = [motion.target.pose(), via].into_iter().flatten();
+    let mut values = places.flat_map(|pose| pose.position_mm.iter().copied());
+    let first = values.next()?;
+    Some(values.fold(first, |most, value| {
+        match value.abs() > most.abs() || value.is_nan() {
+            true => value,
+            false => most,
+        }
+    }))
+}
+
+/// All motions whose tool turns, and not evenly. Where a motion begins at no known pose it has no way in a path, either.
+fn turning_otherwise(program: &RobotProgram) -> Vec<PathError> {
+    let fault = |motion: &Motion| {
+        let otherwise = motion.site.turns_otherwise?;
+        if motion.kind == MotionKind::Joint {
+            return None;
+        }
+        let start = program.motions.get(motion.follows?)?;
+        let frames = [start, motion].map(|motion| motion.work_object.known().copied());
+        let [from, to] = [start, motion].map(|motion| Some(motion.target.pose()?.isometry()));
+        let (from, to) = (from?, to?);
+        let turn = match frames {
+            [Some(before), Some(here)] => {
+                (before.rotation * from.rotation).angle_to(&(here.rotation * to.rotation))
+            }
+            _ => from.rotation.angle_to(&to.rotation),
+        };
+        let reason = not_evenly("the tool turns", turn, otherwise)?;
+        Some(fault_at(program, motion, reason, otherwise.remedy))
+    };
+    program.motions.iter().filter_map(fault).collect()
 }

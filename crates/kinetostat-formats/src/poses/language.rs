@@ -1,18 +1,29 @@
 //! Facts and acts of lists of poses that files outside this folder ask for.
+//!
+//! Adapter of the writer for lists of poses.
+//!
+//! A pose before another one is a copy of its row with other numbers. Lengths go back into the unit of the text.
+
+use std::ops::Range;
 
 use crate::error::WriteError;
 use crate::file_form::{FileForm, ending_of};
+use crate::model::motion::Motion;
 use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
+use crate::model::site::TargetSite;
 use crate::options::{ReadOptions, WriteOptions};
+use crate::poses::decimal_comma::{with_commas, with_points};
 use crate::poses::reader::parse_poses;
 use crate::poses::table::POSES_STATEMENTS;
-use crate::poses::write::write_poses;
 use crate::program_language::{ProgramLanguage, WrittenFile};
 use crate::table::StatementRow;
-use crate::text::source::SourceFile;
-use crate::text::source::beginning;
+use crate::text::edits::Edits;
+use crate::text::number::NumberText;
+use crate::text::source::{SourceFile, beginning};
+use crate::writing::motions::write_with;
 use crate::writing::piece::Piece;
+use crate::writing::syntax::{PieceLiterals, Syntax};
 
 /// Lists of poses: tables and YAML.
 pub(crate) struct PosesLanguage;
@@ -103,4 +114,117 @@ impl ProgramLanguage for PosesLanguage {
     fn speed_remedy(&self) -> &'static str {
         "write it as speed_mm_per_s, or state unstated_feed_mm_per_s in the template"
     }
+}
+
+/// The files of a program with pieces in place of its motions.
+fn write_poses(
+    program: &RobotProgram,
+    pieces: &[Piece],
+    options: &WriteOptions,
+) -> Result<Vec<(String, Vec<u8>)>, WriteError> {
+    let units: Vec<f64> = (0..program.files.len())
+        .map(|file| unit_mm(program, file))
+        .collect();
+    let mut all = pieces.to_vec();
+    for piece in &mut all {
+        if let Some(motion) = program.motions.get(piece.motion) {
+            piece.position_mm /= units[motion.file];
+        }
+    }
+    let mut options = options.clone();
+    if units.contains(&1000.0) {
+        // Equal resolution in metres.
+        options.position_decimals += 3;
+    }
+    let mut written = write_with(program, &all, &options, &PosesSyntax)?;
+    for (file, (name, bytes)) in program.files.iter().zip(&mut written) {
+        if with_points(file).is_some() {
+            *bytes = with_commas(name, std::mem::take(bytes));
+        }
+    }
+    Ok(written)
+}
+
+/// Length of the text's unit in mm: value read over value written, at a non-zero coordinate.
+fn unit_mm(program: &RobotProgram, file: usize) -> f64 {
+    let ratios = program
+        .motions
+        .iter()
+        .filter(|motion| motion.file == file)
+        .filter_map(|motion| {
+            let (TargetSite::Literal(text), Some(pose)) =
+                (&motion.site.target, motion.target.pose())
+            else {
+                return None;
+            };
+            let mut both = text.position.iter().zip(pose.position_mm.iter());
+            let (number, mm) = both.find(|(number, _)| number.value.abs() > 1e-200)?;
+            Some(mm / number.value)
+        });
+    match ratios.into_iter().next() {
+        Some(ratio) if ratio > 30.0 => 1000.0,
+        _ => 1.0,
+    }
+}
+
+/// Tables and YAML.
+struct PosesSyntax;
+
+impl Syntax for PosesSyntax {
+    fn piece(
+        &self,
+        program: &RobotProgram,
+        motion: &Motion,
+        literals: &PieceLiterals,
+        speed: Option<&[u8]>,
+        _options: &WriteOptions,
+    ) -> Option<Vec<u8>> {
+        let literal = literals.end.as_slice();
+        let (Some(speed), Some(site)) = (speed, &motion.site.speed) else {
+            return Some(literal.to_vec());
+        };
+        let row = program.files.get(motion.file)?.part(&motion.span);
+        let numbers = numbers(&motion.site.target)?;
+        let at = moved(row, literal, motion.span.start, numbers, &site.span)?;
+        let mut edits = Edits::default();
+        edits.replace(at, speed);
+        edits.applied_to(literal)
+    }
+}
+
+/// The numbers of a row that become others.
+fn numbers(site: &TargetSite) -> Option<Vec<&Range<usize>>> {
+    let numbers: Vec<&NumberText> = match site {
+        TargetSite::Literal(text) => (text.position.iter())
+            .chain(&text.orientation)
+            .chain(text.external.iter().flatten())
+            .collect(),
+        TargetSite::Joints(text) => text.numbers.iter().map(|(number, _)| number).collect(),
+        _ => return None,
+    };
+    Some(numbers.into_iter().map(|number| &number.span).collect())
+}
+
+/// Position of a span of a row in a copy of the row with other numbers.
+fn moved(
+    row: &[u8],
+    copy: &[u8],
+    start: usize,
+    mut numbers: Vec<&Range<usize>>,
+    span: &Range<usize>,
+) -> Option<Range<usize>> {
+    numbers.retain(|number| number.start < span.start);
+    numbers.sort_by_key(|number| number.start);
+    let is_part = |byte: &&u8| byte.is_ascii_digit() || b"+-.eE".contains(byte);
+    let (mut from, mut to) = (start, 0);
+    for number in numbers {
+        // Between numbers both are the same.
+        to += number.start.checked_sub(from)?;
+        to += copy.get(to..)?.iter().take_while(is_part).count();
+        from = number.end;
+    }
+    to += span.start.checked_sub(from)?;
+    let found = to..to + span.len();
+    let same = copy.get(found.clone())? == row.get(span.start - start..span.end - start)?;
+    same.then_some(found)
 }

@@ -7,9 +7,7 @@
 //!
 //! Source: RFC 4180 (CSV), YAML 1.2.2, ROS `geometry_msgs/Pose` with REP 103 (metres, quaternions).
 
-pub(crate) mod carrier;
 pub(crate) mod cells;
-pub(crate) mod characters;
 pub(crate) mod columns;
 pub(crate) mod csv;
 pub(crate) mod decimal_comma;
@@ -23,5 +21,4 @@ pub(crate) mod row;
 pub(crate) mod table;
 pub(crate) mod tree;
 pub(crate) mod units;
-pub(crate) mod write;
 pub(crate) mod yaml;

@@ -1,5 +1,7 @@
 //! The reader of lists of poses.
 
+use nalgebra::Vector3;
+
 use crate::error::{ProgramError, note};
 use crate::model::frame::FrameUse;
 use crate::model::language::Language;
@@ -9,9 +11,8 @@ use crate::model::program::RobotProgram;
 use crate::model::site::{MotionSite, PoseText, SpeedSite, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::{ExternalAxes, LengthUnit, ReadOptions};
-use crate::poses::carrier::Carrier;
 use crate::poses::csv::{parquet_row, read_table};
-use crate::poses::decimal_comma::with_points;
+use crate::poses::decimal_comma::{Carrier, with_points};
 use crate::poses::joints::{base, between_rows, joint_target};
 use crate::poses::row::{Row, RowTarget, Rows};
 use crate::poses::units::{Reach, mm_of};
@@ -19,7 +20,6 @@ use crate::poses::yaml::read_yaml;
 use crate::text::finding::Finding;
 use crate::text::number::{Width, values_of};
 use crate::text::source::SourceFile;
-use nalgebra::Vector3;
 
 const MOST_BYTES: usize = 1 << 28;
 

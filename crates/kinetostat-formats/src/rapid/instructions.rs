@@ -13,9 +13,8 @@ use crate::rapid::arguments::Arguments;
 use crate::rapid::expression::{arguments_of, expression_of};
 use crate::rapid::functions::{CHANGE_THEIRS, is_computed};
 use crate::rapid::literals::frame_of;
-use crate::rapid::state::Run;
+use crate::rapid::state::{Run, mode_of};
 use crate::rapid::table::{EXTERNAL, MotionRow, motion_row, row};
-use crate::rapid::turning::mode_of;
 use crate::table::Treatment;
 use crate::text::name::Name;
 

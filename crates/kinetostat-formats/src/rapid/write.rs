@@ -14,8 +14,7 @@ use crate::text::edits::Edits;
 use crate::text::name::Name;
 use crate::text::number::Width;
 use crate::text::source::SourceFile;
-use crate::writing::literal::{Wanted, put};
-use crate::writing::syntax::{PieceLiterals, Syntax, names_of, replace_word};
+use crate::writing::syntax::{PieceLiterals, Syntax, Wanted, names_of, put, replace_word};
 
 /// RAPID.
 pub(crate) struct RapidSyntax;

@@ -12,8 +12,7 @@ use crate::text::edits::Edits;
 use crate::text::number::short;
 use crate::text::source::SourceFile;
 use crate::urscript::grammar::WORDS;
-use crate::writing::literal::Wanted;
-use crate::writing::syntax::{PieceLiterals, Syntax, names_of, replace_word};
+use crate::writing::syntax::{PieceLiterals, Syntax, Wanted, names_of, replace_word};
 
 /// Blend with which a piece passes its end: 0.1 mm. Where blends overlap the controller leaves motions out.
 const PASSING: &str = "0.0001";

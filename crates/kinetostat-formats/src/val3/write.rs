@@ -14,8 +14,7 @@ use crate::text::number::short;
 use crate::text::source::SourceFile;
 use crate::val3::frames::{numbers_of, trsf_of};
 use crate::val3::xml::content_of;
-use crate::writing::literal::Wanted;
-use crate::writing::syntax::{PieceLiterals, Syntax, replace_word};
+use crate::writing::syntax::{PieceLiterals, Syntax, Wanted, replace_word};
 
 /// VAL3.
 pub(crate) struct Val3Syntax;

@@ -4,15 +4,11 @@ use nalgebra::UnitQuaternion;
 
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::orientation::OrientationText;
-use crate::model::site::PoseText;
-use crate::writing::ends::Writer;
+use crate::model::site::{PoseText, SpeedSite};
+use crate::writing::ends::{Writer, span_of, text_of};
 use crate::writing::external_axes::AxesOfPiece;
-use crate::writing::literal::Wanted;
-use crate::writing::piece::Piece;
-use crate::writing::refusals::{NO_END, NO_VIA, Reason, check_pieces};
-use crate::writing::speeds::{Stated, speed_of};
-use crate::writing::syntax::PieceLiterals;
-use crate::writing::target_texts::{span_of, text_of};
+use crate::writing::piece::{NO_END, NO_VIA, Piece, Reason, check_pieces};
+use crate::writing::syntax::{PieceLiterals, Wanted};
 
 /// Orientations nearer than this are the same: the text of the orientation stays.
 pub(crate) const SAME_RAD: f64 = 1e-9;
@@ -168,4 +164,38 @@ impl Writer<'_> {
         statement.extend_from_slice(file.indentation(motion.span.start));
         statement
     }
+}
+
+/// When the speed of a piece is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Stated {
+    IfChanged,
+    Always,
+}
+
+/// The speed of a piece where it is written.
+fn speed_of<'m>(
+    motion: &'m Motion,
+    piece: &Piece,
+    stated: Stated,
+) -> Result<Option<(&'m SpeedSite, Vec<u8>)>, Reason> {
+    if piece.speed_factor == 1.0 && stated == Stated::IfChanged {
+        return Ok(None);
+    }
+    let (Some(site), Some(speed)) = (&motion.site.speed, motion.speed.mm_per_s) else {
+        return Err((
+            "its speed cannot be changed: it is not known from the text",
+            "state the speed as a number, or keep it",
+        ));
+    };
+    // A tenth of a um/s, whatever the unit.
+    let decimals = match site.unit_mm_per_s > 1.0 {
+        true => 7,
+        false => 4,
+    };
+    let number = speed * piece.speed_factor / site.unit_mm_per_s;
+    let number = format!("{number:.decimals$}");
+    let number = number.trim_end_matches('0').trim_end_matches('.');
+    let text = [&site.before, number, &site.after].concat();
+    Ok(Some((site, text.into_bytes())))
 }

@@ -1,17 +1,19 @@
 //! The ends of motions and of their pieces, as literals and declarations.
 
+use std::ops::Range;
+
+use nalgebra::{Isometry3, UnitQuaternion};
+
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
-use crate::model::site::{OffsetAxes, SpeedSite, TargetSite};
+use crate::model::site::{JointsText, OffsetAxes, PoseText, SpeedSite, TargetSite};
 use crate::options::WriteOptions;
 use crate::text::edits::Edits;
 use crate::text::number::Width;
+use crate::text::source::SourceFile;
 use crate::writing::declared::{Demands, Names};
-use crate::writing::joints::{put_joints, row_of_joints};
-use crate::writing::literal::{Wanted, literal_of, put, put_pose};
-use crate::writing::refusals::{NO_END, NO_JOINTS, NO_NAME, Reason};
-use crate::writing::syntax::Syntax;
-use crate::writing::target_texts::text_of;
+use crate::writing::piece::{NO_END, NO_JOINTS, NO_NAME, Reason};
+use crate::writing::syntax::{Syntax, Wanted, literal_of, put, put_pose};
 
 /// Output written so far.
 pub(super) struct Writer<'a> {
@@ -128,5 +130,65 @@ impl Writer<'_> {
             (TargetSite::Fixed(reason), Some(_)) => return Err((reason, NO_END.1)),
         }
         Ok(())
+    }
+}
+
+/// Minimum decimals of a changed joint value in degrees or mm: 2e-8 rad are 0.05 micrometres at the end of a long arm.
+const DECIMALS: f64 = 6.0;
+
+/// Puts the joint values of a pose in place of those of a row; `own` is the orientation at its end. None where the arm does not get
+/// there.
+fn put_joints(
+    file: &SourceFile,
+    text: &JointsText,
+    (wanted, own): (&Wanted<'_>, UnitQuaternion<f64>),
+    edits: &mut Edits,
+) -> Option<()> {
+    let rotation = wanted.orientation.unwrap_or(own);
+    let pose = Isometry3::from_parts(wanted.position_mm.into(), rotation);
+    let joints = text.arm.arm.joints_near(&pose, &text.joints())?;
+    for ((number, unit), joint) in text.numbers.iter().zip(joints) {
+        // Equal resolution in radians and in metres.
+        let more = unit.log10().ceil();
+        let decimals = (DECIMALS + more) as usize;
+        put(file, number, joint / unit, decimals, Width::Free, edits);
+    }
+    Some(())
+}
+
+/// The whole row with the joint values of a pose.
+fn row_of_joints(
+    file: &SourceFile,
+    text: &JointsText,
+    pose: (&Wanted<'_>, UnitQuaternion<f64>),
+) -> Option<Vec<u8>> {
+    let mut edits = Edits::default();
+    put_joints(file, text, pose, &mut edits)?;
+    edits.applied_to_part(file.bytes(), &text.whole)
+}
+
+/// The literal that says the configuration of an end.
+pub(super) fn text_of<'s>(program: &'s RobotProgram, site: &'s TargetSite) -> Option<&'s PoseText> {
+    match site {
+        TargetSite::Literal(text) => Some(text),
+        TargetSite::Declared { declaration, .. } => {
+            Some(&program.declarations.get(*declaration)?.text)
+        }
+        TargetSite::Offset { literal, .. } => Some(literal),
+        TargetSite::Partial(_)
+        | TargetSite::Replaced(_)
+        | TargetSite::Joints(_)
+        | TargetSite::Fixed(_) => None,
+    }
+}
+
+/// Position of a target's text; empty for partial, joint and fixed targets.
+pub(super) fn span_of(site: &TargetSite) -> Range<usize> {
+    match site {
+        TargetSite::Literal(text) => text.whole.clone(),
+        TargetSite::Declared { name, .. } => name.clone(),
+        TargetSite::Offset { call, .. } => call.clone(),
+        TargetSite::Replaced(text) => text.span.clone(),
+        TargetSite::Partial(_) | TargetSite::Joints(_) | TargetSite::Fixed(_) => 0..0,
     }
 }

@@ -13,5 +13,4 @@ pub(crate) mod own_weight;
 pub(crate) mod placement;
 pub(crate) mod refused;
 pub(crate) mod tool;
-pub(crate) mod tool_axis;
 pub(crate) mod unusual;

@@ -3,12 +3,11 @@
 use kinetostat::Mechanism;
 use kinetostat::number::short;
 
-use crate::bounds::ToolGiven;
 use crate::checks::exceeded::Exceeded;
 use crate::checks::load::numbered;
 use crate::limits::{Beyond, Limits};
 use crate::near::natural_length;
-use crate::task::Task;
+use crate::task::{Task, ToolGiven};
 use crate::warning::{Warning, WarningCode};
 
 /// Length, with holder, below which a tool is unusual, mm.

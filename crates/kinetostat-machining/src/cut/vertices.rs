@@ -4,8 +4,7 @@ use kinetostat::Wrench;
 use kinetostat::number::larger;
 
 use crate::cut::station::CutStation;
-use crate::profile::by_move::{ByMove, Profile};
-use crate::profile::reduced::reduced;
+use crate::profile::by_move::{ByMove, Profile, reduced};
 
 /// A part of the largest force or moment that does not matter.
 const NEGLIGIBLE: f64 = 0.005;

@@ -7,18 +7,14 @@
 //!
 //! Takes a machine with its tool, a path and where it lies; gives the turn along the path, or where and why there is none.
 
-pub(crate) mod between;
 pub(crate) mod checked;
 pub(crate) mod choice;
 pub(crate) mod choose;
 pub(crate) mod closed_form;
 pub(crate) mod constant;
-pub(crate) mod curve;
 pub(crate) mod error;
-pub(crate) mod fewer_knots;
 pub(crate) mod no_way;
 pub(crate) mod nodes;
-pub(crate) mod ranges;
 pub(crate) mod search;
 pub(crate) mod serial;
 pub(crate) mod shortest;

@@ -22,10 +22,8 @@ use nalgebra::{Rotation3, Vector3};
 
 use crate::cut::profile::{CutAxes, ForceAlongPath};
 use crate::cut::vertices::Scale;
-use crate::load::headings::{Headings, headings};
-use crate::load::law::{CuttingLoad, LoadAxes, ProgramLoad};
-use crate::load::tool::{Tool, tool_on};
-use crate::load::tool_frame::{heading_on, tool_frame};
+use crate::load::headings::{Headings, heading_on, headings, tool_frame};
+use crate::load::law::{CuttingLoad, LoadAxes, ProgramLoad, Tool, tool_on};
 use crate::placement::Placement;
 use crate::profile::by_move::Profile;
 

@@ -1,11 +1,10 @@
 //! In which direction a cut goes at the ends of every move, and how far the load lags behind at a gentle corner.
 
 use kinetostat_program::{Move, MoveKind, Path};
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::cut::station::SHORT_MM;
+use crate::cut::station::{SHORT_MM, heading};
 use crate::load::law::ProgramLoad;
-use crate::load::tool_frame::heading_on;
 
 /// Heading of a move at its two ends, seen along z of the part frame (along the tool where the program turns it), rad, and how far the heading
 /// of the load differs there because a corner is gentle.
@@ -79,4 +78,31 @@ pub(crate) fn headings<'l>(
         }
     }
     headings
+}
+
+/// The rotation that takes the part's z to the tool's direction by the shorter way, part axes: none in a program of positions.
+pub(crate) fn tool_frame(path: &Path, move_index: usize, share: f64) -> UnitQuaternion<f64> {
+    let Some(orientation) = path.moves[move_index].orientation(share) else {
+        return UnitQuaternion::identity();
+    };
+    let direction = orientation * path.tool_axis;
+    // Upside down every way is as short: about x.
+    UnitQuaternion::rotation_between(&Vector3::z(), &direction).unwrap_or_else(|| {
+        UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
+    })
+}
+
+/// Heading of a direction (part axes) at a share of a move in the axes of [`tool_frame`], rad; `None` along the tool.
+pub(crate) fn heading_on(
+    path: &Path,
+    (move_index, share): (usize, f64),
+    direction: Option<Vector3<f64>>,
+) -> Option<f64> {
+    match path.moves[move_index].tool_turn {
+        None => heading(direction),
+        Some(_) => {
+            let frame = tool_frame(path, move_index, share);
+            heading(direction.map(|along| frame.inverse() * along))
+        }
+    }
 }

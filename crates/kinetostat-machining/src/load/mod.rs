@@ -8,6 +8,3 @@ pub(crate) mod headings;
 pub(crate) mod law;
 pub(crate) mod ramp_findings;
 pub(crate) mod ramps;
-pub(crate) mod runs;
-pub(crate) mod tool;
-pub(crate) mod tool_frame;

@@ -6,10 +6,9 @@ use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Details};
 use kinetostat::spatial::pose_residual;
 use kinetostat::{Mechanism, Pose, Posture, Wrench};
 
-use crate::map::frequencies::{LOWEST, lowest};
 use crate::map::nearness::{Nearness, NearnessRoom};
 use crate::map::place::PlaceState;
-use crate::map::solved::{Solved, Wanted};
+use crate::map::solved::{LOWEST, Solved, Wanted, lowest};
 use crate::map::variable::{Needs, Variable};
 use crate::postures::configurations::Configurations;
 

@@ -2,8 +2,7 @@
 
 use kinetostat::number::{larger, smaller};
 
-use crate::map::principal::{principal, rotational};
-use crate::map::solved::Solved;
+use crate::map::solved::{Solved, principal, rotational};
 
 /// A quantity of a place, in SI units. Numbers that do not exist are NaN.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

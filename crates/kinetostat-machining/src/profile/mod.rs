@@ -4,4 +4,3 @@
 
 pub(crate) mod by_move;
 pub(crate) mod limited;
-pub(crate) mod reduced;

@@ -1,14 +1,18 @@
 //! The result of a run: its inputs, figures, warnings and points.
 
 use kinetostat::number::{larger, largest, largest_length, smaller};
-use kinetostat::{Directions, Mechanism, MotionKind};
+use kinetostat::{Directions, Mechanism, MotionKind, Posture};
 use kinetostat_program::{Corrected, MachineProgram, Path};
 
+use crate::checks::few_places::every;
 use crate::checks::refused::{as_warning, of_points, of_task};
 use crate::checks::unusual::unusual;
 use crate::joints::figures::JointFigures;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::ramp_findings::TooFast;
+use crate::measured_frame::PartPlace;
+use crate::near::{natural_length, near_singular};
+use crate::postures::orientation::Orientation;
 use crate::result::assessment::{Assumption, AssumptionKind};
 use crate::result::envelope::Envelope;
 use crate::result::joints::JointsResult;
@@ -20,11 +24,9 @@ use crate::result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
 use crate::result::summary::Summary;
 use crate::run::checked::Checked;
 use crate::run::cutting::cutting_result;
-use crate::run::fast_change::changes_faster_than_stated;
 use crate::run::following::following;
 use crate::run::joints::{joints_result, posture_warning};
-use crate::run::nearest_singular::nearest_singular;
-use crate::run::summary::summarise;
+use crate::run::summary::{changes_faster_than_stated, summarise};
 use crate::run::tolerance::tolerance;
 use crate::run::whole_turns::whole_turns;
 use crate::task::Task;
@@ -333,4 +335,42 @@ fn changes_fast(task: &Task<'_>, checked: &Checked) -> Option<Warning> {
     );
     let code = WarningCode::ForceChangesFast;
     Some(Warning::at_line(code, found.line, text))
+}
+
+/// The place nearest to a singular posture: ends of moves and places between them, evenly spread.
+/// Places are compared by the tool's motion, rotations at the natural length.
+fn nearest_singular(task: &Task<'_>, points: &[PointResult]) -> Option<NearSingularPlace> {
+    let length_mm = 1e3 * natural_length(task.mechanism);
+    let orientation = Orientation {
+        follows: task.placement.orientation_follows,
+        load_turns: false,
+    };
+    let mut last: Option<Posture> = None;
+    let mut found: Option<(f64, NearSingularPlace)> = None;
+    for point in points.iter().step_by(every(task, points.len())) {
+        let pose = PartPlace::of_point(task, point).pose();
+        let mechanism = task.mechanism_on(point.line);
+        let near = last
+            .as_ref()
+            .filter(|near| std::ptr::eq(near.mechanism(), mechanism));
+        let posture = orientation.posture(mechanism, &pose, near);
+        let Ok(posture) = posture else { continue };
+        if let Some(near) = near_singular(&posture) {
+            let far = near
+                .distance_mm
+                .max(near.rotation_deg.to_radians() * length_mm);
+            if found.as_ref().is_none_or(|(least, _)| far < *least) {
+                found = Some((
+                    far,
+                    NearSingularPlace {
+                        line: point.line,
+                        position_mm: point.position_mm,
+                        posture: near,
+                    },
+                ));
+            }
+        }
+        last = Some(posture);
+    }
+    found.map(|(_, place)| place)
 }

@@ -2,8 +2,7 @@
 
 use crate::load::along_path::LoadAlongPath;
 use crate::run::first_look::FirstLook;
-use crate::run::of_whole::OfWhole;
-use crate::run::preparation::{load, refuse};
+use crate::run::preparation::{OfWhole, load, refuse};
 use crate::task::{RunError, Task};
 use crate::watch::Watch;
 

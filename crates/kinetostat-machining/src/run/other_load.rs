@@ -4,8 +4,7 @@ use kinetostat::{Pose, Wrench};
 
 use crate::measured_frame::{MeasuredFrame, PartPlace};
 use crate::postures::neighbour::in_chunks;
-use crate::run::machines::Machines;
-use crate::run::points::BATCH;
+use crate::run::points::{BATCH, Machines};
 use crate::run::sites::site::Site;
 use crate::task::{RunError, Task};
 use crate::watch::Watch;

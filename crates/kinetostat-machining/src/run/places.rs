@@ -4,14 +4,13 @@ use kinetostat::Wrench;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::load::along_path::LoadAlongPath;
-use crate::load::tool::tool_on;
+use crate::load::law::tool_on;
 use crate::postures::arm_course::ArmCourse;
 use crate::postures::neighbour::{Neighbour, in_chunks};
 use crate::result::point::{PointKind, PointResult, size};
 use crate::result::program_place::ProgramPlace;
 use crate::result::selection::{thinned, worst};
-use crate::run::machines::Machines;
-use crate::run::points::Solving;
+use crate::run::points::{Machines, Solving};
 use crate::run::sites::site::Site;
 use crate::task::Task;
 

@@ -1,24 +1,23 @@
 //! Every place of a program solved: where the tool is without compensation and with it, and what the machine
 //! carries there.
 
-use kinetostat::batch::BatchEquilibrium;
+use kinetostat::batch::{AlongPath, BatchEquilibrium};
 use kinetostat::chain::FoundBy;
 use kinetostat::{Error, MechanismEquilibrium, MotionKind, Pose, Posture, Wrench};
 use nalgebra::UnitQuaternion;
 
 use crate::field::cause_and_advice;
 use crate::joints::figures::{JointFigures, in_display};
+use crate::load::law::{Tool, tool_on};
 use crate::measured_frame::{FrameMotion, MeasuredFrame, PartPlace};
 use crate::postures::arm_course::ArmCourse;
 use crate::postures::neighbour::{Neighbour, in_chunks};
 use crate::postures::orientation::Orientation;
 use crate::result::point::{PointResult, size};
 use crate::run::following::turn_deg;
-use crate::run::machines::Machines;
 use crate::run::sites::site::Site;
 use crate::task::{NoMotion, RunError, Task, kinds};
 use crate::watch::Watch;
-use kinetostat::batch::AlongPath;
 
 /// Points between two questions to the watch whether to stop.
 pub(crate) const BATCH: usize = 16_384;
@@ -331,4 +330,49 @@ fn worse_than_before(task: &Task<'_>, site: &Site, point: &PointResult) -> Optio
         before_mm,
         after_mm,
     })
+}
+
+/// The machine of a run with each of its tools, ready to solve many postures.
+pub(crate) struct Machines<'t, 'm> {
+    task: &'t Task<'m>,
+    /// The first is the machine without one of the tools.
+    machines: Vec<AlongPath>,
+}
+
+impl<'t, 'm> Machines<'t, 'm> {
+    pub fn new(task: &'t Task<'m>) -> Self {
+        let machine = match task.placement.orientation_follows {
+            true => AlongPath::by_neighbours,
+            false => AlongPath::new,
+        };
+        let machines = std::iter::once(task.mechanism);
+        let machines = machines.chain(task.tools.iter().map(|tool| tool.mechanism));
+        Self {
+            task,
+            machines: machines.map(machine).collect(),
+        }
+    }
+
+    fn tool(&self, site: &Site) -> Option<&'t Tool<'m>> {
+        tool_on(self.task.tools, self.task.path(), site.line)
+    }
+
+    /// True if two places are cut with one tool.
+    pub fn same(&self, one: &Site, other: &Site) -> bool {
+        let number = |site: &Site| self.tool(site).map(|tool| tool.number);
+        number(one) == number(other)
+    }
+
+    /// The machine that cuts at a place, and what is done with the orientation there.
+    pub fn at(&self, site: &Site) -> (&AlongPath, Orientation) {
+        let tool = self.tool(site);
+        let position = |tool: &Tool<'_>| {
+            let own = |other: &Tool<'_>| other.number == tool.number;
+            self.task.tools.iter().position(own)
+        };
+        let index = tool.and_then(position).map_or(0, |index| index + 1);
+        let load = tool.map_or(&self.task.load, |tool| &tool.load);
+        let orientation = Orientation::of(&self.task.placement, load);
+        (&self.machines[index], orientation)
+    }
 }

@@ -1,5 +1,6 @@
 //! Preparation of every run: a first look at the program, the load along it, the way of the arm, and the measured part frame.
 
+use kinetostat::number::smaller;
 use kinetostat_program::CorrectionField;
 
 use crate::checks::motion::no_motion;
@@ -12,7 +13,6 @@ use crate::measured_frame::MeasuredFrame;
 use crate::postures::arm_course::ArmCourse;
 use crate::postures::orientation::Orientation;
 use crate::run::first_look::FirstLook;
-use crate::run::of_whole::OfWhole;
 use crate::run::points::Solving;
 use crate::task::{RunError, Task};
 use crate::watch::Watch;
@@ -125,5 +125,33 @@ pub(crate) fn has_motion(task: &Task<'_>) -> Result<(), RunError> {
     match no_motion(task.path()) {
         Some(reason) => Err(RunError::NoMotion(reason)),
         None => Ok(()),
+    }
+}
+
+/// Facts about a whole program for the run of a part of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OfWhole {
+    /// Moves of the whole program, over which the places of a first look are spread.
+    pub moves: usize,
+    /// Smallest stiffness against a force at the places that a first look took, N/mm; infinite before the first.
+    pub stiffness_n_per_mm: f64,
+    /// The program is left as it is: it keeps its tolerance so, or nothing can be written.
+    pub as_it_is: bool,
+}
+
+impl OfWhole {
+    /// Adds the facts found in another part.
+    pub fn add(&mut self, found: &Self) {
+        self.stiffness_n_per_mm = smaller(self.stiffness_n_per_mm, found.stiffness_n_per_mm);
+    }
+}
+
+impl Default for OfWhole {
+    fn default() -> Self {
+        Self {
+            moves: 0,
+            stiffness_n_per_mm: f64::INFINITY,
+            as_it_is: false,
+        }
     }
 }

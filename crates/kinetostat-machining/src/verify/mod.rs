@@ -11,8 +11,6 @@
 //! that are solved for it, and the pieces are solved as those of any written program. Inside a move of the original the error is so the
 //! distance from the compensated path: along that, where an error moves no material, there is none but at ends.
 
-mod abreast;
-mod air;
 mod along;
 mod conditions;
 mod exact;
@@ -20,16 +18,16 @@ mod follow;
 mod followed;
 mod matched;
 mod on_guide;
-mod pieces;
 mod places;
 mod rapids;
 mod stretches;
-mod turned;
-mod uncut;
-mod way;
 
-use kinetostat::number::smaller;
-use kinetostat_program::{Arcs, Corrected, CorrectionField, Path, Unwatched, WriteError};
+use kinetostat::number::{larger, smaller};
+use kinetostat_program::{
+    Accounting, Arcs, Corrected, CorrectionField, Move, MoveKind, Path, Piece, Unwatched,
+    WriteError,
+};
+use nalgebra::UnitQuaternion;
 
 use crate::load::law::CornerLoad;
 use crate::run::checked::Checked;
@@ -45,8 +43,7 @@ use crate::task::{RunError, Task};
 use crate::verify::conditions::{conditions, cuts};
 use crate::verify::exact::exact;
 use crate::verify::follow::follow;
-use crate::verify::pieces::as_written;
-use crate::verify::turned::turned_most;
+use crate::verify::followed::Followed;
 use crate::warning::WarningCode;
 use crate::watch::Watch;
 
@@ -151,4 +148,104 @@ fn guide(
         }
     }
     Ok(task.program.write(field, &own, &Unwatched)?)
+}
+
+/// The other program as one that was written from the original; steps that go backwards by more than `backward_mm` are counted.
+fn as_written(
+    original: &Path,
+    (other, bytes): (&Path, &[u8]),
+    followed: Vec<Followed>,
+    backward_mm: f64,
+) -> Corrected {
+    let states = |path: &Path| path.moves.iter().any(|motion| motion.tool_turn.is_some());
+    let turns = states(original) && states(other);
+    let (mut orientations, mut rotary_deg) = (Vec::new(), Vec::new());
+    if turns {
+        for Followed {
+            other_end, piece, ..
+        } in &followed
+        {
+            let (index, share) = *other_end;
+            let turn = other.moves[index].tool_turn.as_ref();
+            // A move that does not state how the tool stands leaves it to what the original says there.
+            let of_original = || original.moves[piece.move_index].orientation(piece.share_to);
+            let stands = turn.map(|turn| turn.at(share)).or_else(of_original);
+            orientations.push(stands.unwrap_or_else(UnitQuaternion::identity));
+            let rotary = turn.and_then(|turn| turn.rotary.as_ref());
+            rotary_deg.push(rotary.map_or_else(Vec::new, |rotary| rotary.angles_deg(share)));
+        }
+    }
+    let feed = other.moves.iter().filter(|m| m.kind == MoveKind::Feed);
+    let mut accounting = Accounting {
+        blocks_out: feed.count(),
+        bytes_out: bytes.len(),
+        pieces: followed.len(),
+        ..Accounting::default()
+    };
+    let pieces: Vec<Piece> = followed.into_iter().map(|f| f.piece).collect();
+    note_steps(&mut accounting, original, &pieces, backward_mm);
+    Corrected {
+        bytes: bytes.to_vec(),
+        pieces,
+        beside: Vec::new(),
+        orientations,
+        rotary_deg,
+        accounting,
+        writer: None,
+    }
+}
+
+/// Steps at corners and where a rapid ends, and how far they go against the direction of motion.
+fn note_steps(accounting: &mut Accounting, original: &Path, pieces: &[Piece], backward_mm: f64) {
+    let place = |piece: &Piece| piece.turn.map(|turn| (piece.move_index, turn.to_share));
+    for step in pieces.chunk_by(|a, b| place(a) == place(b)) {
+        let (first, last) = (&step[0], &step[step.len() - 1]);
+        let Some(turn) = first.turn else { continue };
+        let way = last.commanded_to - first.commanded_from;
+        let a = &mut *accounting;
+        let is_entry = turn.is_entry(original);
+        let (count, longest) = match is_entry {
+            true => (&mut a.entry_steps, &mut a.largest_entry_step_mm),
+            false => (&mut a.corner_steps, &mut a.largest_corner_step_mm),
+        };
+        *count += 1;
+        *longest = larger(*longest, way.norm());
+        let before = original.moves[turn.from_move].tangent(turn.from_share);
+        let directions = original.moves[first.move_index].tangent(turn.to_share);
+        let directions = directions.into_iter().chain(before.filter(|_| !is_entry));
+        let backward = directions.fold(0.0, |most, along| larger(most, -way.dot(&along)));
+        a.backward_steps += usize::from(backward > backward_mm);
+        a.largest_backward_mm = larger(a.largest_backward_mm, backward);
+    }
+}
+
+/// Share of a turning move within which a place on it is known.
+const PLACED: f64 = 0.1;
+
+/// Largest difference of the commanded orientation from that of the original at its place: the way from one move to the next is not
+/// evaluated if both programs turn the tool.
+fn turned_most(original: &Path, other: &Path, pieces: &[Followed]) -> Option<Turned> {
+    let of_piece = |own: &Followed| {
+        let (index, share) = own.other_end;
+        let motion = &other.moves[index];
+        let of_original = &original.moves[own.piece.move_index];
+        let cuts = own.piece.corrected && own.piece.turn.is_none() && motion.is_known_feed();
+        let turn = motion.tool_turn.as_ref().filter(|_| cuts)?;
+        let wanted = of_original.orientation(own.piece.share_to)?;
+        let slack = PLACED * (turn_of(of_original)? + turn_of(motion)?);
+        let angle = turn.at(share).angle_to(&wanted) - slack;
+        Some(Turned {
+            line: motion.line,
+            line_of_original: of_original.line,
+            angle_deg: angle.max(0.0).to_degrees(),
+        })
+    };
+    let all = pieces.iter().filter_map(of_piece);
+    all.max_by(|a, b| a.angle_deg.total_cmp(&b.angle_deg))
+}
+
+/// Rotation of the tool in a move, rad.
+fn turn_of(motion: &Move) -> Option<f64> {
+    let at = |share: f64| -> Option<UnitQuaternion<f64>> { motion.orientation(share) };
+    Some(at(0.0)?.angle_to(&at(1.0)?))
 }

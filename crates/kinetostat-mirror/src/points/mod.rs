@@ -1,6 +1,5 @@
 //! Measured points, from CSV or from the path of a second program.
 
-mod columns;
 mod read;
 mod same;
 mod sampled;

@@ -1,11 +1,11 @@
 //! Points with their feet, and which of them count.
 
+use kinetostat_program::{Foot, NominalPath};
 use nalgebra::Vector3;
 
 use crate::number::{OF_NINE_IN_TEN, larger, median, quantile};
 use crate::points::MeasuredPoint;
 use crate::registration::motion::Motion;
-use kinetostat_program::{Foot, NominalPath};
 
 /// Standard deviations beyond which a point counts nothing.
 pub(crate) const FARTHEST_DEVIATIONS: f64 = 6.0;
@@ -144,4 +144,34 @@ fn middle_and_size(all: &[Followed]) -> (Vector3<f64>, f64) {
         .iter()
         .map(|point| point.weight * (point.moved - middle).norm_squared());
     (middle, (squares.sum::<f64>() / total).sqrt())
+}
+
+/// Options of a registration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RegistrationOptions {
+    /// Seek a scale too: where the part has another temperature than its drawing.
+    pub with_scale: bool,
+    /// Seek a shift only: no turn, and no scale.
+    pub only_shift: bool,
+    /// Maximum distance of the tool from its path, mm: points within that are not outliers.
+    pub window_mm: f64,
+}
+
+impl Default for RegistrationOptions {
+    fn default() -> Self {
+        Self {
+            with_scale: false,
+            only_shift: false,
+            window_mm: 1.0,
+        }
+    }
+}
+
+impl RegistrationOptions {
+    pub(crate) fn counting(self, without_outliers: bool) -> Counting {
+        Counting {
+            window_mm: self.window_mm,
+            without_outliers,
+        }
+    }
 }

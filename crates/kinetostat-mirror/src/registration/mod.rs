@@ -23,16 +23,13 @@ mod candidates;
 mod closest;
 mod everywhere;
 mod extent;
-mod free;
 mod horn;
 mod motion;
-mod options;
 mod search;
 mod starts;
-mod step;
 
 pub use candidates::ToldBy;
+pub use closest::RegistrationOptions;
 pub(crate) use extent::of_the_same_size;
 pub use motion::{FreeMotion, Motion};
-pub use options::RegistrationOptions;
 pub use search::{Registration, register};

@@ -1,19 +1,26 @@
 //! The search for the motion.
+//!
+//! A step of all points towards the path, along which they may slide.
+//!
+//! Motions that the points do not determine, in a form that one can name.
+//!
+//! The directions of the unknowns that change no distance from the path are a space of which any basis is as good as another: on
+//! a line, a turn about it, a shift along it and a growth along it may come as three mixtures. Here growth is taken out
+//! first, then what has no turn (shifts), and what is left are turns.
+
+use kinetostat_program::NominalPath;
+use nalgebra::{Matrix3, SMatrix, SVector, UnitQuaternion, Vector3};
 
 use crate::error::MirrorError;
 use crate::number::larger;
 use crate::points::{MeasuredPoint, MeasuredPoints};
 use crate::registration::candidates::{Candidate, ToldBy, chosen};
-use crate::registration::closest::Closest;
+use crate::registration::closest::{Closest, RegistrationOptions};
 use crate::registration::everywhere::everywhere;
 use crate::registration::extent::of_the_same_size;
 use crate::registration::horn::{Pair, closest_motion};
 use crate::registration::motion::{FreeMotion, Motion};
-use crate::registration::options::RegistrationOptions;
 use crate::registration::starts::starts;
-use crate::registration::step::step;
-use kinetostat_program::NominalPath;
-use nalgebra::Vector3;
 
 /// Points by which motions are judged; all of them take part in the end.
 const JUDGED: usize = 1000;
@@ -248,5 +255,146 @@ fn refine(
         deviation_mm: closest.deviation_mm,
         rejected_rows: rejected.map(|(point, _)| point.row).collect(),
         moved_mm: counted_ways.fold(0.0, larger),
+    })
+}
+
+/// Eigenvalues of the normal equations below this share of the largest determine nothing.
+const UNDETERMINED: f64 = 1e-6;
+
+/// A step, and what it left as it was.
+pub(crate) struct Step {
+    pub motion: Motion,
+    /// Motion of the points by it, mm: the shift and the turn at the mean distance from the middle.
+    pub way_mm: f64,
+    pub free: Vec<FreeMotion>,
+}
+
+/// The step from a motion to the next, by Gauss-Newton with the distances across the path; `None` where numbers are lost.
+fn step(closest: &Closest, before: &Motion, options: RegistrationOptions) -> Option<Step> {
+    let size = closest.size_mm.max(f64::MIN_POSITIVE);
+    let mut normal = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
+    let mut right = Unknowns::zeros();
+    for point in closest.all.iter().filter(|point| point.weight > 0.0) {
+        let lever = (point.moved - closest.middle) / size;
+        let tangent = point.foot.tangent;
+        let across = Matrix3::identity() - tangent * tangent.transpose();
+        // Columns: turn about x, y, z, shift along x, y, z, and growth; all as ways in mm.
+        let mut ways = SMatrix::<f64, 3, UNKNOWNS>::zeros();
+        if !options.only_shift {
+            ways.view_mut((0, 0), (3, 3))
+                .copy_from(&(-lever.cross_matrix()));
+        }
+        ways.view_mut((0, 3), (3, 3))
+            .copy_from(&Matrix3::identity());
+        if options.with_scale {
+            ways.set_column(6, &lever);
+        }
+        let gap = across * (point.foot.place_mm - point.moved);
+        let seen = across * ways;
+        normal += seen.transpose() * seen * point.weight;
+        right += seen.transpose() * gap * point.weight;
+    }
+    if !normal
+        .iter()
+        .chain(right.iter())
+        .all(|entry| entry.is_finite())
+    {
+        return None;
+    }
+    let eigen = normal.symmetric_eigen();
+    let largest = eigen.eigenvalues[eigen.eigenvalues.imax()];
+    let mut solution = Unknowns::zeros();
+    let mut open = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
+    for (value, vector) in eigen
+        .eigenvalues
+        .iter()
+        .zip(eigen.eigenvectors.column_iter())
+    {
+        match *value > UNDETERMINED * largest {
+            true => solution += vector * (vector.dot(&right) / value),
+            false => open += vector * vector.transpose(),
+        }
+    }
+    if options.only_shift {
+        // Turns are not sought, so that none is open.
+        let shifts =
+            SMatrix::<f64, UNKNOWNS, UNKNOWNS>::from_diagonal(&Unknowns::from_fn(|i, _| {
+                f64::from(u8::from((3..6).contains(&i)))
+            }));
+        open = shifts * open * shifts;
+    }
+    let turn = Vector3::new(solution[0], solution[1], solution[2]) / size;
+    let shift = Vector3::new(solution[3], solution[4], solution[5]);
+    let growth = 1.0 + solution[6] / size;
+    let rotation = UnitQuaternion::from_scaled_axis(turn);
+    let motion = Motion {
+        rotation: rotation * before.rotation,
+        shift_mm: rotation * (before.shift_mm - closest.middle) * growth + closest.middle + shift,
+        scale: before.scale * growth,
+    };
+    Some(Step {
+        motion,
+        way_mm: solution.norm(),
+        free: free_motions(open, closest, options.with_scale),
+    })
+}
+
+/// Turn, shift and growth.
+const UNKNOWNS: usize = 7;
+
+pub(crate) type Unknowns = SVector<f64, UNKNOWNS>;
+
+type Square = SMatrix<f64, UNKNOWNS, UNKNOWNS>;
+
+/// The unknown that is growth; turns about x, y and z stand first, then shifts.
+const GROWTH: usize = 6;
+
+/// A direction with so small a square of its turn (a way at the mean distance from the middle, of a whole of 1) is a shift, and
+/// one with so small a square of its growth has none.
+const NONE: f64 = 0.01;
+
+/// Free motions from the projection onto the directions that the points leave open.
+fn free_motions(mut open: Square, closest: &Closest, with_scale: bool) -> Vec<FreeMotion> {
+    let mut free = Vec::new();
+    let growth: Unknowns = open.column(GROWTH).into_owned();
+    // A projection: the square of its length is its own entry.
+    if growth[GROWTH] > NONE {
+        open -= growth * growth.transpose() / growth[GROWTH];
+        // Growth is not determined if no scale is sought.
+        free.extend(with_scale.then_some(FreeMotion::Growth));
+    }
+    let turns = Square::from_diagonal(&Unknowns::from_fn(|i, _| f64::from(u8::from(i < 3))));
+    // Open directions by the square of their turn, from 0 to 1; all others at 2.
+    let eigen = (open * turns * open + (Square::identity() - open) * 2.0).symmetric_eigen();
+    for (value, vector) in eigen
+        .eigenvalues
+        .iter()
+        .zip(eigen.eigenvectors.column_iter())
+    {
+        let way = Vector3::new(vector[0], vector[1], vector[2]);
+        let shift = Vector3::new(vector[3], vector[4], vector[5]);
+        match *value {
+            value if value < NONE => {
+                free.extend(direction(shift).map(|along| FreeMotion::Shift { along }))
+            }
+            value if value < 1.5 => free.extend(direction(way).map(|along| {
+                let turn = way / closest.size_mm;
+                FreeMotion::Turn {
+                    through_mm: closest.middle + turn.cross(&shift) / turn.norm_squared(),
+                    along,
+                }
+            })),
+            _ => {}
+        }
+    }
+    free
+}
+
+/// Returns the one of two opposite directions whose largest component is positive.
+fn direction(of: Vector3<f64>) -> Option<Vector3<f64>> {
+    let direction = of.try_normalize(f64::MIN_POSITIVE)?;
+    Some(match direction[direction.iamax()] < 0.0 {
+        true => -direction,
+        false => direction,
     })
 }

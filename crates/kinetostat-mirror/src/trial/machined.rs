@@ -15,15 +15,20 @@
 //! By how much the fit is worse (`-2 ln` of its likelihood) with `beta = 0` is `(beta / s)^2`; with an answer that a machine may have, from `b` on,
 //! `((b - beta) / s)^2`, nothing where `beta` is larger. The smaller one explains the measurement better, clearly if it is a hundred times as likely
 //! (the ratio of likelihoods, Neyman and Pearson 1933).
+//!
+//! Two trials compared place by place: what the points of one say where the other was measured.
+//!
+//! The points before stand at other places. Their means are interpolated by the polynomial through the two nearest to each side (Lagrange), as
+//! far as none is farther from the next than the smoothing length: what bends between such points is not seen.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use nalgebra::Vector3;
 
-use crate::deviation::{Measurement, PieceMean, Stations};
+use crate::alignment::AlignedPoint;
+use crate::deviation::{Kernel, Measurement, PieceMean, Stations, smoothed_along};
 use crate::number::larger;
-use crate::trial::compared::Place;
-use crate::trial::passing::between_stations;
 
 /// A machine may answer with this share of a correction: ten trials then leave a tenth of the error. A machine that answers with
 /// less is not worth correcting by trials.
@@ -137,4 +142,129 @@ impl Seen {
         let [without, with] = self.worse();
         without - with > CLEARLY
     }
+}
+
+/// Places up to this share of a smoothing length behind the last point before are still compared with it: the way between stations.
+const BESIDE: f64 = 0.25;
+
+/// A place that was measured now, and what the points before say of it.
+pub(crate) struct Place<'m> {
+    pub now: &'m PieceMean,
+    /// Means before, and their shares in the deviation there.
+    pub before: Vec<(usize, f64)>,
+    /// Deviation now less that before.
+    pub change_mm: Vector3<f64>,
+    /// Change by straight interpolation.
+    pub straight_mm: Vector3<f64>,
+    /// The correction, with the opposite sign.
+    pub sent_mm: Vector3<f64>,
+    pub weight: f64,
+}
+
+impl<'m> Place<'m> {
+    /// `None` where the points before say nothing.
+    pub(crate) fn of(
+        now: &'m PieceMean,
+        before: &[PieceMean],
+        sent_mm: Vector3<f64>,
+        smoothing_mm: f64,
+    ) -> Option<Self> {
+        let first = before.partition_point(|mean| mean.stretch < now.stretch);
+        let end = before.partition_point(|mean| mean.stretch <= now.stretch);
+        let nodes = around(before.get(first..end)?, now.along_mm, smoothing_mm)?;
+        let [straight, cubic] =
+            nodes.map(|nodes| shares(before, first + nodes.start..first + nodes.end, now.along_mm));
+        let changed = |shares: &[(usize, f64)]| {
+            let there = shares
+                .iter()
+                .map(|(index, share)| before[*index].deviation_mm * *share);
+            now.deviation_mm - there.sum::<Vector3<f64>>()
+        };
+        let scatter = cubic
+            .iter()
+            .map(|(index, share)| share * share / before[*index].points);
+        let weight = 1.0 / (1.0 / now.points + scatter.sum::<f64>());
+        (weight > 0.0).then(|| Self {
+            now,
+            change_mm: changed(&cubic),
+            straight_mm: changed(&straight),
+            before: cubic,
+            sent_mm,
+            weight,
+        })
+    }
+}
+
+/// Means around a place for straight and for cubic interpolation; `None` too far from them.
+fn around(before: &[PieceMean], along_mm: f64, smoothing_mm: f64) -> Option<[Range<usize>; 2]> {
+    let after = before.partition_point(|mean| mean.along_mm <= along_mm);
+    let way = |index: usize| before[index].along_mm - before[index - 1].along_mm;
+    let goes_on = |index: usize| index > 0 && index < before.len() && way(index) <= smoothing_mm;
+    let nearest = match after {
+        _ if goes_on(after) => after - 1..after + 1,
+        0 => 0..1,
+        _ if after == before.len() => after - 1..after,
+        _ => return None,
+    };
+    let beside = before.get(nearest.start)?.along_mm - along_mm;
+    if nearest.len() == 1 && beside.abs() > BESIDE * smoothing_mm {
+        return None;
+    }
+    let start = nearest.start - usize::from(goes_on(nearest.start));
+    let end = nearest.end + usize::from(goes_on(nearest.end));
+    Some([nearest, start..end])
+}
+
+/// Shares of the values at some places in that of the polynomial through them.
+fn shares(before: &[PieceMean], nodes: Range<usize>, along_mm: f64) -> Vec<(usize, f64)> {
+    let of_one = |index: usize| {
+        let others = nodes.clone().filter(|other| *other != index);
+        let factors = others.map(|other| {
+            let at = before[other].along_mm;
+            (along_mm - at) / (before[index].along_mm - at)
+        });
+        (index, factors.product())
+    };
+    nodes.clone().map(of_one).collect()
+}
+
+/// Part of a correction by these deviations at the stations that the kernel lets through, at the points of a measurement: the part
+/// across the path there, smoothed once more.
+pub(crate) fn passed(
+    stations: &Stations,
+    deviation_mm: &[Vector3<f64>],
+    measured: &Measurement,
+    smoothing_mm: f64,
+) -> Vec<Vector3<f64>> {
+    let at = |point: &AlignedPoint| {
+        let stretch = stations.stretch_of(point.piece);
+        let there = between_stations(stations, deviation_mm, (stretch, point.along_mm));
+        AlignedPoint {
+            deviation_mm: there - point.tangent * point.tangent.dot(&there),
+            ..*point
+        }
+    };
+    let points: Vec<AlignedPoint> = measured.points.iter().map(at).collect();
+    let kernel = Kernel {
+        length_mm: smoothing_mm,
+    };
+    let [_, passed] = smoothed_along(stations, kernel, &points);
+    passed
+        .iter()
+        .map(|smoothed| smoothed.deviation_mm)
+        .collect()
+}
+
+/// Value at a place between stations: a stretch and a length along the path, mm.
+pub(crate) fn between_stations(
+    stations: &Stations,
+    at_stations: &[Vector3<f64>],
+    (stretch, along_mm): (usize, f64),
+) -> Vector3<f64> {
+    let along = stations.along_mm();
+    let own = &stations.stretches()[stretch].stations;
+    let after = along[own.clone()].partition_point(|at| *at <= along_mm);
+    let k = own.start + after.clamp(1, own.len() - 1);
+    let share = (along_mm - along[k - 1]) / (along[k] - along[k - 1]);
+    at_stations[k - 1].lerp(&at_stations[k], share.clamp(0.0, 1.0))
 }

@@ -4,7 +4,6 @@
 
 pub(crate) mod controller;
 pub(crate) mod deviation;
-pub(crate) mod limb;
 pub(crate) mod load;
 pub(crate) mod mechanism;
 pub(crate) mod platform;

@@ -2,11 +2,11 @@
 
 use kinetostat::model::{LinkConvention, LinkMass, MassModel};
 use kinetostat::number::short;
-use kinetostat::{LinkSpec, Pose, spatial::turn_matrix};
+use kinetostat::spatial::turn_matrix;
+use kinetostat::{LinkSpec, Pose};
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
-use crate::elements::elastic::{Elastic, along};
-use crate::elements::elasticity::Elasticity;
+use crate::elements::elastic::{Elastic, Elasticity, along};
 use crate::elements::part::Part;
 use crate::elements::placement::frame_along;
 use crate::elements::quantity::{DEG, MM, choices, forbid, pick, positive};

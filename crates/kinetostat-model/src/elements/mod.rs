@@ -6,7 +6,6 @@
 pub(crate) mod body;
 pub(crate) mod damping;
 pub(crate) mod elastic;
-pub(crate) mod elasticity;
 pub(crate) mod element;
 pub(crate) mod joint;
 pub(crate) mod knee;

@@ -1,8 +1,7 @@
 //! All numbers of a document with their paths.
 
-use crate::parameters::document::walk;
 use crate::parameters::unit::{ParameterKind, unit};
-use crate::parameters::walk::Visit;
+use crate::parameters::walk::{Numbers, Visit, step};
 use crate::schema::Document;
 
 /// A number of a model file, by a name that people can type.
@@ -74,4 +73,66 @@ fn of_steps(steps: &[String]) -> (ParameterKind, &'static str, f64) {
 
 fn is_matrix(key: &str) -> bool {
     key.starts_with("matrix_") || key == "inertia_kg_m2"
+}
+
+/// All numbers of a document, always in the same order.
+pub(crate) fn walk(document: &mut Document, visit: &mut dyn Visit) {
+    let Document {
+        schema: _,
+        // Damping has no effect in statics.
+        damping: _,
+        mechanism,
+        workspace,
+        platform,
+        section,
+        stiffness,
+        chain,
+        limb,
+        load,
+        deviation,
+        rotary_axis,
+        controller,
+    } = document;
+    step("mechanism", mechanism, "mechanism", visit);
+    step("workspace", workspace, "workspace", visit);
+    for platform in platform {
+        let name = platform.name.clone();
+        within(["platform", &name], platform, visit);
+    }
+    step("section", section, "section", visit);
+    step("stiffness", stiffness, "stiffness", visit);
+    step("chain", chain, "chain", visit);
+    for limb in limb {
+        visit.enter("limb");
+        visit.enter(&limb.name);
+        step("start", &mut limb.start, "start", visit);
+        step("end", &mut limb.end, "end", visit);
+        for load in &mut limb.load {
+            let name = load.name().to_owned();
+            within(["load", &name], load, visit);
+        }
+        visit.leave();
+        visit.leave();
+    }
+    for load in load {
+        let name = load.name().to_owned();
+        within(["load", &name], load, visit);
+    }
+    for deviation in deviation {
+        visit.enter("deviation");
+        let (limb, at) = (deviation.limb.clone(), deviation.at.clone());
+        within([&limb, &at], deviation, visit);
+        visit.leave();
+    }
+    for axis in rotary_axis {
+        let word = axis.word.letter().to_string();
+        within(["rotary_axis", &word], axis, visit);
+    }
+    step("controller", controller, "controller", visit);
+}
+
+fn within([outer, inner]: [&str; 2], value: &mut dyn Numbers, visit: &mut dyn Visit) {
+    visit.enter(outer);
+    step(inner, value, "", visit);
+    visit.leave();
 }

@@ -11,10 +11,8 @@
 //! - A deviation that the file does not have is zero: `deviation.LIMB.PLACE.longer_by_mm`,
 //!   `deviation.LIMB.PLACE.translation_mm.x`, `deviation.LIMB.PLACE.rotation_vector_deg.x`.
 
-mod document;
 pub(crate) mod elements;
 mod list;
-mod own;
 mod resolve;
 mod tables;
 pub(crate) mod unit;

@@ -8,7 +8,6 @@ pub(crate) mod drives;
 pub(crate) mod home;
 pub(crate) mod limb;
 pub(crate) mod link_matrix;
-pub(crate) mod machine;
 pub(crate) mod masses;
 pub(crate) mod numbers;
 pub(crate) mod springs;

@@ -5,13 +5,10 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::schema::controller::ControllerTable;
 use crate::schema::elastic::{Section, Stiffness};
 use crate::schema::element::Element;
 use crate::schema::load::{LoadTable, PlatformLoadTable};
 use crate::schema::placement::{Axis, Placement};
-use crate::schema::rotary::RotaryAxisTable;
-use crate::schema::vibration::DampingTable;
 
 /// The version of the format that this crate reads and writes.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -183,6 +180,222 @@ pub struct Deviation {
     pub tilted_by_deg: Option<f64>,
     /// Axis of the tilt, in the frame reached there.
     pub about: Option<Axis>,
+    /// Source of the figures.
+    pub source: Option<String>,
+    /// Assumption behind the figures.
+    pub assumption: Option<String>,
+}
+
+/// Map of the controller: its coordinates are linear functions of the model's joints.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ControllerTable {
+    /// Name of the controller, in a few words.
+    pub name: Option<String>,
+    /// The axes in the order of the controller, one for every actuator, external axes included.
+    #[schemars(length(min = 1, max = 1000))]
+    pub axis: Vec<ControllerAxisTable>,
+    /// Source of the figures.
+    pub source: Option<String>,
+    /// Assumption behind the figures.
+    pub assumption: Option<String>,
+}
+
+/// One axis of the controller: ratio times its joint, plus shares of other joints, plus an offset.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ControllerAxisTable {
+    /// Name as on the controller: A1, J1, E1.
+    pub name: String,
+    /// Name of its actuator; in a machine of several limbs LIMB.ACTUATOR.
+    pub joint: String,
+    /// true: the controller counts against the model's joint.
+    pub reversed: Option<bool>,
+    /// Motion on the controller per motion of the joint, above zero; 1 if not given.
+    pub ratio: Option<f64>,
+    /// Controller coordinate while the model's joints are at zero, mm.
+    pub zero_offset_mm: Option<f64>,
+    /// Controller coordinate while the model's joints are at zero, m.
+    pub zero_offset_m: Option<f64>,
+    /// Controller coordinate while the model's joints are at zero, degrees.
+    pub zero_offset_deg: Option<f64>,
+    /// Controller coordinate while the model's joints are at zero, rad.
+    pub zero_offset_rad: Option<f64>,
+    /// Unit that the controller shows; mm for a joint that slides, deg for one that turns if not given.
+    pub unit: Option<ControllerUnit>,
+    /// Other joints that move this axis on the controller, with their signs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1000))]
+    pub coupled: Vec<ControllerCoupling>,
+}
+
+/// The share of another joint in an axis of the controller.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ControllerCoupling {
+    /// The other actuator, of the model.
+    pub joint: String,
+    /// Motion on the controller per motion of that joint, both of one kind: -1 where the controller shows
+    /// the difference.
+    pub ratio: Option<f64>,
+    /// For an axis that slides and a joint that turns.
+    pub ratio_mm_per_deg: Option<f64>,
+    /// For an axis that turns and a joint that slides.
+    pub ratio_deg_per_mm: Option<f64>,
+}
+
+/// Unit of an axis of the controller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ControllerUnit {
+    /// Millimetres.
+    Mm,
+    /// Metres.
+    M,
+    /// Degrees.
+    Deg,
+    /// Radians.
+    Rad,
+}
+
+impl ControllerUnit {
+    /// Unit as written: `mm`, `m`, `deg`, `rad`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Mm => "mm",
+            Self::M => "m",
+            Self::Deg => "deg",
+            Self::Rad => "rad",
+        }
+    }
+
+    /// m or rad in one of it.
+    #[must_use]
+    pub fn in_si(self) -> f64 {
+        match self {
+            Self::Mm => 1e-3,
+            Self::Deg => std::f64::consts::PI / 180.0,
+            Self::M | Self::Rad => 1.0,
+        }
+    }
+}
+
+/// The word of a rotary axis.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
+pub enum RotaryWord {
+    /// About x, as a rule.
+    A,
+    /// About y, as a rule.
+    B,
+    /// About z, as a rule.
+    C,
+}
+
+impl RotaryWord {
+    /// Letter of the axis in programs.
+    ///
+    /// ```
+    /// assert_eq!(kinetostat_model::schema::RotaryWord::B.letter(), 'B');
+    /// ```
+    #[must_use]
+    pub fn letter(self) -> char {
+        match self {
+            Self::A => 'A',
+            Self::B => 'B',
+            Self::C => 'C',
+        }
+    }
+}
+
+/// Body that a rotary axis turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CarriesWord {
+    /// The tool: a head, whose joint is in the chain as well.
+    Tool,
+    /// The part: a table, which is taken to be rigid.
+    Part,
+}
+
+/// A rotary axis of a machine of five axes, by its word in programs. Heads are joints of a chain as well; a table turns the part and is in no
+/// chain. Of two heads, or two tables, the one that carries the other comes first.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RotaryAxisTable {
+    /// Letter of the axis in programs.
+    pub word: RotaryWord,
+    /// Body that the axis turns.
+    pub carries: CarriesWord,
+    /// About which a positive word turns that, right-handed, base axes, where all rotary axes stand at zero. Where a table turns
+    /// against its word (as ISO 841 has it), write the axis with a minus.
+    pub axis: Axis,
+    /// A point on the axis there, base axes, mm; needed of a table.
+    pub point_mm: Option<[f64; 3]>,
+    /// A point on the axis there, base axes, m.
+    pub point_m: Option<[f64; 3]>,
+    /// Lower and upper limit of its angle, deg; without them it turns without end, or a head as far as the joint of its
+    /// chain does.
+    pub limits_deg: Option<[f64; 2]>,
+    /// Source of the figures.
+    pub source: Option<String>,
+    /// Assumption behind the figures.
+    pub assumption: Option<String>,
+}
+
+/// Damping of all vibrations of the machine: one of `ratio`, `ratios`, `rayleigh` and `loss_factor`. Dampers of single
+/// joints and springs are written there instead.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DampingTable {
+    /// Ratio to critical damping of all modes: 0.03 is 3 %.
+    pub ratio: Option<f64>,
+    /// Ratios to critical damping of the lowest modes, the last for all above.
+    #[schemars(length(min = 1, max = 1000))]
+    pub ratios: Option<Vec<f64>>,
+    /// Shares of mass and stiffness.
+    pub rayleigh: Option<RayleighTable>,
+    /// Loss factor of all springs: a force that goes with the deflection, a quarter of a period late.
+    pub loss_factor: Option<f64>,
+    /// Source of the figures.
+    pub source: Option<String>,
+    /// Assumption behind the figures.
+    pub assumption: Option<String>,
+}
+
+/// Damping as a share of the mass and one of the stiffness.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RayleighTable {
+    /// Times the mass, 1/s.
+    pub mass_per_s: f64,
+    /// Times the stiffness of the springs, s.
+    pub stiffness_s: f64,
+}
+
+/// The rotor of a drive's motor, before the transmission. Its servo holds it: that stiffness and the one of the transmission
+/// in series are the stiffness of the drive.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RotorTable {
+    /// Inertia of the rotor about its own axis, with what turns with it, kg m^2.
+    pub inertia_kg_m2: f64,
+    /// Turns of the rotor for one turn of the joint.
+    pub ratio: Option<f64>,
+    /// Travel of a sliding joint per turn of the rotor, mm.
+    pub lead_mm_per_turn: Option<f64>,
+    /// Travel of a sliding joint per turn of the rotor, m.
+    pub lead_m_per_turn: Option<f64>,
+    /// Stiffness of the servo along a sliding joint, N/m.
+    pub servo_stiffness_n_per_m: Option<f64>,
+    /// Stiffness of the servo along a sliding joint, N/mm.
+    pub servo_stiffness_n_per_mm: Option<f64>,
+    /// Stiffness of the servo about a turning joint, as the joint feels it, N m/rad.
+    pub servo_stiffness_n_m_per_rad: Option<f64>,
+    /// Stiffness of the servo about a turning joint, as the joint feels it, N mm/rad.
+    pub servo_stiffness_n_mm_per_rad: Option<f64>,
     /// Source of the figures.
     pub source: Option<String>,
     /// Assumption behind the figures.

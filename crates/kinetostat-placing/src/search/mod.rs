@@ -5,7 +5,6 @@
 //! is added and the search goes on from where it is. The figures of the search are therefore never above those of the whole program,
 //! and the best one is that of the whole program.
 
-mod effort;
 mod findings;
 mod listed;
 mod looking;
@@ -25,7 +24,7 @@ use crate::search::looking::Search;
 use crate::sensitivity::sensitivity;
 use crate::space::{Place, Space};
 
-pub use effort::Effort;
+pub use looking::Effort;
 
 /// First step of a refinement, and of one that goes on with more places, as shares of the ranges.
 const FIRST_STEP: f64 = 0.12;

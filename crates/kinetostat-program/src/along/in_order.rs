@@ -1,9 +1,9 @@
 //! Points in their order along the path.
 
 use nalgebra::Vector3;
+use serde::Serialize;
 
 use crate::along::foot::Foot;
-use crate::along::why::WhyLeftOut;
 
 /// The most that a way may cost which does not fit that between two points.
 const DEAREST_STEP: f64 = 4.0;
@@ -110,4 +110,18 @@ pub fn in_order_by(
 fn step(along_mm: f64, way_mm: f64, window_mm: f64) -> Option<f64> {
     let cost = ((along_mm - way_mm) / (way_mm + window_mm)).powi(2);
     (along_mm >= -window_mm).then_some(cost.min(DEAREST_STEP))
+}
+
+/// Reason for which a point has no place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum WhyLeftOut {
+    /// The path does not come within the window.
+    BeyondWindow,
+    /// Several stretches of the path come within the window.
+    SeveralStretches,
+    /// The point names a line, and only cuts of other lines come within the window.
+    NotOnItsLine,
+    /// The place would lie before those of earlier points.
+    OutOfOrder,
 }

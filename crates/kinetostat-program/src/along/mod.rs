@@ -3,4 +3,3 @@
 pub(crate) mod foot;
 pub(crate) mod in_order;
 pub(crate) mod nominal;
-pub(crate) mod why;

@@ -4,7 +4,6 @@ use std::collections::VecDeque;
 use std::hash::{DefaultHasher, Hasher};
 use std::sync::Arc;
 
-use crate::parts::by_known::ByKnown;
 use crate::parts::length::PartLength;
 use crate::reading::interpreting::interpreter::InterpreterState;
 use crate::text::program::ReaderState;
@@ -191,4 +190,30 @@ impl Beginnings {
         });
         found.collect()
     }
+}
+
+/// Lengths by the axes that are known before the moves: which of them count is clear only when all axes are that are stated.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct ByKnown([f64; 8]);
+
+impl ByKnown {
+    pub fn add(&mut self, known: [bool; 3], length_mm: f64) {
+        self.0[index_of(known)] += length_mm;
+    }
+
+    /// Length of the moves from known places, in a program that states these axes.
+    pub fn whole_mm(&self, stated: [bool; 3]) -> f64 {
+        let counts = (0..8).filter(|index| covers(*index, stated));
+        counts.map(|index| self.0[index]).sum()
+    }
+}
+
+/// Index below 8 of a set of known axes.
+pub(crate) fn index_of(known: [bool; 3]) -> usize {
+    (0..3).map(|axis| usize::from(known[axis]) << axis).sum()
+}
+
+/// True if all axes that are stated are known.
+pub(crate) fn covers(index: usize, stated: [bool; 3]) -> bool {
+    (0..3).all(|axis| index >> axis & 1 == 1 || !stated[axis])
 }

@@ -7,11 +7,9 @@
 //! put together, is one program.
 
 pub(crate) mod beginnings;
-pub(crate) mod by_known;
 pub(crate) mod gcode_part;
 pub(crate) mod in_order;
 pub(crate) mod length;
-pub(crate) mod lines;
 pub(crate) mod survey;
 pub(crate) mod windows;
 pub(crate) mod written_so_far;

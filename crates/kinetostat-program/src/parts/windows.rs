@@ -3,10 +3,8 @@
 use std::io::{BufRead, Seek, SeekFrom};
 
 use crate::parts::beginnings::Check;
-use crate::parts::lines::{Lines, PartError};
-use crate::parts::survey::Survey;
-use crate::path::moves::Path;
-use crate::path::part::PathPart;
+use crate::parts::survey::{Lines, PartError, Survey};
+use crate::path::moves::{Path, PathPart};
 use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::options::ReadOptions;
 use crate::text::program::{PartOfText, Program, Reader};

@@ -3,15 +3,13 @@
 use std::io::BufRead;
 
 use crate::error::ProgramError;
-use crate::parts::lines::{Lines, PartError};
-use crate::parts::survey::Survey;
+use crate::parts::survey::{Lines, PartError, Survey};
 use crate::path::moves::Path;
 use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::options::ReadOptions;
 use crate::text::line::first_line;
 use crate::text::program::{PartOfText, Program, Reader, ReaderState};
-use crate::writing::writer_state::WriterState;
-use crate::writing::written::Corrected;
+use crate::writing::written::{Corrected, WriterState};
 
 /// State of a written program: the modal state of a controller that has run it so far, and that of its writer.
 pub struct WrittenSoFar<'o> {

@@ -6,11 +6,9 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::path::curve::{Curve, NO_LENGTH_MM};
-use crate::path::part::PathPart;
 use crate::path::pause::Pause;
 use crate::path::position_offset::OffsetChange;
 use crate::path::spindle::SpindleChange;
-use crate::path::tool_change::ToolChange;
 use crate::path::tool_turn::ToolTurn;
 
 /// Rapid traverse or feed.
@@ -290,4 +288,31 @@ impl Path {
             .partition_point(|change| change.line <= line);
         Some(self.tool_changes.get(after.checked_sub(1)?)?.number)
     }
+}
+
+/// A block from which on another tool is used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+pub struct ToolChange {
+    /// Line of the block, counted from 1.
+    pub line: usize,
+    /// Number of the tool that is used from this block on.
+    pub number: u32,
+}
+
+/// Position of a path within a longer one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PathPart {
+    /// Indices of the moves that are its own: the others say how these begin and end (directions, corners, the way on which a
+    /// load comes), and belong to the parts beside it.
+    pub moves: Range<usize>,
+    /// Moves of the whole path before the first of all of these.
+    pub moves_before: usize,
+    /// Nothing of the program comes before its own moves.
+    pub begins: bool,
+    /// Length of the path before its own moves, mm, of all moves from known places.
+    pub before_mm: f64,
+    /// Length of all that the whole program cuts, mm.
+    pub whole_feed_mm: f64,
+    /// Arcs at feed in the whole program.
+    pub whole_feed_arcs: usize,
 }

@@ -3,8 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::error::{ProgramError, ProgramErrorKind};
-use crate::path::moves::{Knowledge, Move, MoveKind, Path, Warning};
-use crate::path::tool_change::ToolChange;
+use crate::path::moves::{Knowledge, Move, MoveKind, Path, ToolChange, Warning};
 use crate::reading::block::Block;
 use crate::reading::options::ReadOptions;
 use crate::text::program::Program;

@@ -13,8 +13,7 @@ use crate::writing::accounting::Accounting;
 use crate::writing::blocks::arc_of_piece::arc_form;
 use crate::writing::blocks::axis_words::UNCHANGED_MM;
 use crate::writing::blocks::block_text::motion_word;
-use crate::writing::blocks::block_writer::BlockWriter;
-use crate::writing::blocks::program_style::ProgramStyle;
+use crate::writing::blocks::block_writer::{BlockWriter, ProgramStyle};
 use crate::writing::dividing::divide::Division;
 use crate::writing::header::{header, lines_above};
 use crate::writing::merge::Accepted;
@@ -23,8 +22,7 @@ use crate::writing::options::WriteOptions;
 use crate::writing::output_state::{OutputMove, OutputState, motion_of};
 use crate::writing::piece_account::{AsWritten, PieceAccount};
 use crate::writing::steps::Steps;
-use crate::writing::writer_state::WriterState;
-use crate::writing::written::Corrected;
+use crate::writing::written::{Corrected, WriterState};
 
 pub(crate) struct Emitter<'a> {
     program: &'a Program,

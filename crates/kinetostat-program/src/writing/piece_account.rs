@@ -2,17 +2,15 @@
 
 use nalgebra::Vector3;
 
-use crate::number::at_most;
-use crate::number::{larger, smaller};
+use crate::number::{at_most, larger, smaller};
 use crate::path::moves::{Feed, FeedMode, Knowledge, Move, MoveKind, Path, Warning};
 use crate::writing::accounting::{Accounting, Rate, duration, duration_at};
 use crate::writing::node::is_divided;
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::OutputMove;
 use crate::writing::short_blocks::{ShortBlocks, Whose};
-use crate::writing::written::Piece;
+use crate::writing::written::{Piece, WrittenCircle};
 use crate::writing::written_arc::WrittenArc;
-use crate::writing::written_circle::WrittenCircle;
 
 /// Text of a piece as written.
 #[derive(Debug, Clone, Copy, Default)]

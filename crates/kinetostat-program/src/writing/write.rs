@@ -8,8 +8,7 @@ use crate::writing::dividing::beginning::Fitted;
 use crate::writing::dividing::divide::{Division, divide};
 use crate::writing::emit::Emitter;
 use crate::writing::options::{Arcs, WriteOptions};
-use crate::writing::writer_state::WriterState;
-use crate::writing::written::Corrected;
+use crate::writing::written::{Corrected, WriterState};
 
 /// Writes the program whose commanded path is the path plus the field's correction.
 ///

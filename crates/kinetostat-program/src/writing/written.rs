@@ -1,15 +1,15 @@
 //! A written program and its motions.
 
 use nalgebra::{UnitQuaternion, Vector3};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use crate::path::curve::Curve;
+use crate::path::curve::{Arc, Curve};
 use crate::path::moves::{Knowledge, Move, Path};
+use crate::path::position_offset::PositionOffset;
 use crate::writing::accounting::Accounting;
 use crate::writing::jump::Turn;
-use crate::writing::writer_state::WriterState;
-use crate::writing::written_arc::WrittenArc;
-use crate::writing::written_circle::WrittenCircle;
+use crate::writing::output_state::OutputState;
+use crate::writing::written_arc::{WrittenArc, slipped};
 
 /// One motion of the written program: straight, or an arc that is kept or fitted. A doctest is with [`WrittenArc`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -190,5 +190,51 @@ impl Corrected {
             stated: original.stated,
             ..Path::default()
         }
+    }
+}
+
+/// State of a writer between two parts of a program: the second one is written from it and its own lines.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct WriterState {
+    pub(crate) output: OutputState,
+    /// Last rotation of the tool, rad.
+    pub(crate) tilt: Vector3<f64>,
+    /// Line of the output that is written next.
+    pub(crate) output_line: usize,
+    /// Pieces that were written so far.
+    pub(crate) pieces: usize,
+    pub(crate) input_offset: PositionOffset,
+    pub(crate) input_position: Vector3<f64>,
+    /// A correction was written so far.
+    pub(crate) corrected: bool,
+    /// The largest so far: by so much may an axis be off that a block does not name.
+    pub(crate) largest_correction_mm: f64,
+}
+
+/// A circle of the written program that passes through a place between its ends, or an arc about a stated centre, as it was read
+/// again.
+///
+/// ```
+/// use kinetostat_program::{Arc, WrittenCircle};
+/// use nalgebra::Vector3;
+///
+/// let [start, via, end] = [[5.0, 0.0], [0.0, 5.0], [-5.0, 0.0]].map(|[x, y]| Vector3::new(x, y, 2.0));
+/// let curve = Arc::through(&start, &via, &end).unwrap();
+/// let circle = WrittenCircle { curve, slip: [0.0, 0.0] };
+/// assert!((circle.commanded(0.5) - via).norm() < 1e-12);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct WrittenCircle {
+    /// Curve, part frame, in mm.
+    pub curve: Arc,
+    /// Slip, as in [`crate::WrittenArc::slip`].
+    pub slip: [f64; 2],
+}
+
+impl WrittenCircle {
+    /// Commanded tool position when a part (0 to 1) of the piece's stretch of the path is done, mm.
+    #[must_use]
+    pub fn commanded(&self, part: f64) -> Vector3<f64> {
+        self.curve.point(slipped(&self.slip, part))
     }
 }

@@ -8,7 +8,6 @@ pub(crate) mod cut_table;
 pub(crate) mod cutting;
 pub(crate) mod engagement;
 pub(crate) mod facts;
-pub(crate) mod features;
 pub(crate) mod force_band;
 pub(crate) mod joints;
 pub(crate) mod meaning;

@@ -1,14 +1,14 @@
 //! The page: the template filled with figures, drawings and tables.
 
+use kinetostat_machining::FeatureResult;
 use minijinja::{Environment, Value, context};
 
 use crate::chart::panel::Sheet;
 use crate::chart::section::Section;
-use crate::number::{self, MISSING};
+use crate::number::{self, MISSING, typeset};
 use crate::run::shown::Shown;
-use crate::run::{along, chatter, cut_table, cutting, facts, features, joints, meaning, plan};
-use crate::text;
-use crate::turns;
+use crate::run::{along, chatter, cut_table, cutting, facts, joints, meaning, plan};
+use crate::{text, turns};
 
 /// The name ends in `.html`, which switches automatic escaping on.
 const PAGE: &str = "report.html";
@@ -64,7 +64,7 @@ pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
         turns_sentence => result.turns.map(|(_, words)| text::clean(words)),
         stiffness => figure(result, along::stiffness),
         can_buckle => result.summary.largest_share_to_buckling.is_some(),
-        features => features::table(result),
+        features => table(result),
         worst => facts::worst(result),
         uncorrected => facts::uncorrected(result),
         warnings_left_out => warnings.len().saturating_sub(MOST_WARNINGS),
@@ -93,4 +93,27 @@ fn figure(result: &Shown<'_>, draw: fn(&Shown<'_>, Sheet) -> String) -> Value {
         return Value::from(());
     }
     Value::from_safe_string(wide + "\n" + &draw(result, Sheet::Narrow))
+}
+
+/// Maximum number of features shown; more are in the result file.
+const MOST: usize = 200;
+
+/// Rows of features; nothing where the job names none.
+fn table(result: &Shown<'_>) -> Value {
+    if result.features.is_empty() {
+        return Value::from(());
+    }
+    let rows: Vec<Value> = result.features.iter().take(MOST).map(row).collect();
+    context! { left_out => result.features.len() - rows.len(), rows }
+}
+
+fn row(feature: &FeatureResult) -> Value {
+    let [name, lines, before, after, allowed, verdict] = feature.cells();
+    let length = |cell: String| match cell.is_empty() {
+        true => MISSING.to_owned(),
+        false => typeset(&cell),
+    };
+    let [before, after, allowed] = [before, after, allowed].map(length);
+    let name = text::clean(&name);
+    context! { name, lines, before, after, allowed, verdict, missed => feature.held == Some(false) }
 }

@@ -2,7 +2,6 @@
 
 mod load;
 mod rows;
-mod source;
 mod written;
 
 use kinetostat::Wrench;
@@ -12,8 +11,8 @@ use crate::file::load::Load;
 use crate::file::written::{Reader, Written};
 use crate::uncertain::{Uncertain, Uncertainties};
 
+pub use load::{CUTTING_PARTS, Source};
 pub use rows::SharedNumber;
-pub use source::{CUTTING_PARTS, Source};
 
 /// Content of a file of uncertainties.
 #[derive(Clone, Debug, PartialEq)]

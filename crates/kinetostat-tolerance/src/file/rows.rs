@@ -8,8 +8,7 @@ use kinetostat_model::{Model, ParameterKind};
 use serde_spanned::Spanned;
 
 use crate::distribution::Distribution;
-use crate::file::load::Load;
-use crate::file::source::Source;
+use crate::file::load::{Load, Source};
 use crate::file::written::{Pair, Reader, Row};
 use crate::uncertain::Uncertain;
 

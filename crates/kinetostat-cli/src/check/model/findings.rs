@@ -13,7 +13,7 @@ use crate::check::model::limbs::{LimbFinding, LoadFinding, limb, platform_loads}
 use crate::check::model::reach::{ReachFinding, reach_from};
 use crate::machine::model_warnings::{deviation_descriptions, of_model};
 use crate::machine::unstable_joints::load_names;
-use crate::ui::pose::pose_text;
+use crate::ui::numbers::pose_text;
 
 /// Findings, stable names with units.
 #[derive(Serialize)]

@@ -4,15 +4,12 @@
 
 pub(crate) mod along;
 pub(crate) mod cutters;
-mod engagement;
 mod files_of_cut;
 pub(crate) mod material;
-mod measured;
 pub(crate) mod question;
 pub(crate) mod refused;
 pub(crate) mod stock;
-mod twice;
 
+pub(crate) use along::{MeasuredSetup, measured_setup};
 pub(crate) use files_of_cut::FilesOfCut;
-pub(crate) use measured::{MeasuredSetup, measured_setup};
 pub(crate) use question::{CutSetup, cut_setup};

@@ -1,6 +1,8 @@
 //! Cutting data of a job as one question.
 
-use kinetostat_cutting::{Engagement, SpindleCurve, Tool};
+use std::ops::RangeInclusive;
+
+use kinetostat_cutting::{Engagement, Side, SpindleCurve, Tool};
 use kinetostat_machining::{CutQuestion, EngagementSource, Placement};
 use nalgebra::Vector3;
 use serde_spanned::Spanned;
@@ -8,15 +10,15 @@ use serde_spanned::Spanned;
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::ProgramArgs;
 use crate::job::cut::cutters::{cutters, extremes};
-use crate::job::cut::engagement::engagement;
 use crate::job::cut::files_of_cut::FilesOfCut;
 use crate::job::cut::material::material;
 use crate::job::cut::refused::refused;
 use crate::job::cut::stock::stock;
-use crate::job::cut::twice::{MATERIAL, not_typed_too};
-use crate::job::cut_tables::{MaterialTable, SpindleTable};
+use crate::job::cut_tables::{EngagementTable, MaterialTable, SpindleTable};
+use crate::job::format::LoadTable;
 use crate::job::job_file::JobFile;
-use crate::ui::failure::Answer;
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::numbers::short;
 
 /// The cuts of a job.
 pub(crate) struct CutSetup {
@@ -232,4 +234,136 @@ pub(crate) fn curve(j: &JobFile, table: &SpindleTable) -> Answer<Option<SpindleC
         };
         refused(j, at, &error)
     })
+}
+
+/// The engagement of `[engagement]` for a tool, and it in words.
+fn engagement(
+    job: &JobFile,
+    table: &Spanned<EngagementTable>,
+    tool: &Tool,
+) -> Answer<(EngagementSource, String)> {
+    let t = table.get_ref();
+    let straight = |width: f64, depth: f64, part: Option<Side>| {
+        let slot = width >= 2.0 * tool.radius_mm();
+        let part = match part {
+            Some(side) => side,
+            None if slot => Side::Left,
+            None => {
+                return Err(job.error(
+                    table,
+                    "it is not said on which side of the feed the part is",
+                    "write part = \"left\" or part = \"right\"",
+                ));
+            }
+        };
+        Engagement::straight(tool.radius_mm(), width, depth, part)
+            .map_err(|error| refused(job, table, &error))
+    };
+    match (&t.width_mm, &t.depth_mm, t.lines.is_empty()) {
+        (Some(width), Some(depth), true) => {
+            let (width, depth) = (*width.get_ref(), *depth.get_ref());
+            let words = format!(
+                "engagement as stated on all feed moves: {} mm wide, {} mm deep",
+                short(width),
+                short(depth)
+            );
+            let source = EngagementSource::Constant(straight(width, depth, t.part)?);
+            Ok((source, words))
+        }
+        (None, None, false) => {
+            let mut ranges = Vec::new();
+            for lines in &t.lines {
+                let l = lines.get_ref();
+                if l.from == 0 || l.to < l.from {
+                    return Err(job.error(
+                        lines,
+                        "lines count from 1, the first before the last",
+                        "correct 'from' and 'to'",
+                    ));
+                }
+                let before = ranges
+                    .iter()
+                    .find(|(range, _): &&(RangeInclusive<usize>, _)| {
+                        *range.start() <= l.to && l.from <= *range.end()
+                    });
+                if let Some((range, _)) = before {
+                    return Err(job.error(
+                        lines,
+                        &format!(
+                            "lines {} to {} have an engagement already",
+                            range.start(),
+                            range.end()
+                        ),
+                        "let no line stand in two ranges",
+                    ));
+                }
+                ranges.push((l.from..=l.to, straight(l.width_mm, l.depth_mm, l.part)?));
+            }
+            Ok((
+                EngagementSource::Lines(ranges),
+                "engagement as stated for lines of the program, air on all others".to_owned(),
+            ))
+        }
+        _ => Err(missing(job, table)),
+    }
+}
+
+fn missing(job: &JobFile, table: &Spanned<EngagementTable>) -> Failure {
+    job.error(
+        table,
+        "an engagement is 'width_mm' and 'depth_mm', or 'lines'",
+        "write both, or lines = [{ from = 10, to = 40, width_mm = 2, depth_mm = 3, part = \"right\" }]",
+    )
+}
+
+/// Source of a computed force that excludes a typed one, in words.
+pub(super) struct OtherForce {
+    /// Text after "a force, and".
+    what: &'static str,
+    /// Text after "on the command line, and by".
+    whose: &'static str,
+    table: &'static str,
+}
+
+pub(super) const MATERIAL: OtherForce = OtherForce {
+    what: "a material to compute it from",
+    whose: "the material",
+    table: "[material]",
+};
+
+pub(super) const MEASURED: OtherForce = OtherForce {
+    what: "measured forces",
+    whose: "the measured forces",
+    table: "[measured]",
+};
+
+/// A force that is typed in stands against one that is computed or measured.
+pub(super) fn not_typed_too<T>(
+    j: &JobFile,
+    flags: &ProgramArgs,
+    table: &Spanned<T>,
+    other: &OtherForce,
+) -> Answer<()> {
+    let typed = |load: &LoadTable| {
+        load.force_n.is_some() || load.moment_n_m.is_some() || load.milling.is_some()
+    };
+    let of_tools = j
+        .job
+        .tools
+        .iter()
+        .filter_map(|tool| tool.get_ref().load.as_ref());
+    if typed(&j.job.load) || of_tools.into_iter().any(typed) {
+        return Err(j.error(
+            table,
+            &format!("the load is given twice: a force, and {}", other.what),
+            &format!("keep [load] or {}", other.table),
+        ));
+    }
+    if flags.force.is_some() || flags.moment.is_some() || flags.milling.is_some() {
+        return Err(Failure::input(format!(
+            "the load is given twice: on the command line, and by {} of the job file; keep one of them",
+            other.whose
+        )));
+    }
+    Ok(())
 }

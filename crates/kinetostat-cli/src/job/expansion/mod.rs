@@ -9,4 +9,3 @@ pub(crate) mod arguments;
 pub(crate) mod flat;
 pub(crate) mod folders;
 pub(crate) mod settings;
-mod values;

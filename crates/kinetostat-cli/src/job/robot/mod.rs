@@ -6,24 +6,17 @@
 //! ([`row_limits`]: rows that this arm does not reach).
 
 pub(crate) mod called_files;
-mod config_frames;
 pub(crate) mod configuration;
 pub(crate) mod divided;
 pub(crate) mod first_place;
-pub(crate) mod flat;
 mod folder;
 pub(crate) mod frame_distance;
 pub(crate) mod frames;
 pub(crate) mod joint_arm;
 pub(crate) mod machine;
-mod own_angles;
-pub(crate) mod parquet;
 pub(crate) mod parts;
 pub(crate) mod read_once;
 pub(crate) mod read_program;
-mod row_limits;
 pub(crate) mod settings;
 pub(crate) mod source;
-mod stated_frames;
 pub(crate) mod system_frames;
-mod unfit_options;

@@ -1,23 +1,25 @@
 //! A robot's program read, with its path.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use kinetostat::Directions;
 use kinetostat_formats::{
-    Correctable, Motion, ProgramFault, RobotPath, RobotProgram, Target, Zone, all_faults, path_of,
-    read, spindle_of_blocks,
+    Correctable, FlatText, FrameUse, Motion, ProgramFault, RobotPath, RobotProgram, Target, Zone,
+    all_faults, expand, path_of, read, spindle_of_blocks,
 };
-use kinetostat_machining::{Assumption, AssumptionKind};
+use kinetostat_machining::{Assumption, AssumptionKind, FlatProgram};
 use kinetostat_program::{Move, StatedBy, Warning};
 
+use crate::job::robot::frame_distance::distance;
 use crate::job::robot::read_once::ReadOnce;
 use crate::job::robot::settings::RobotSettings;
 use crate::job::robot::source::RobotSource;
-use crate::job::robot::stated_frames::warnings;
 use crate::job::robot::system_frames::taken;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::fault_list::fault_list_text;
+use crate::ui::numbers::short;
 
 /// Upper limit of the call names in one sentence.
 const MOST_CALLS: usize = 5;
@@ -230,4 +232,153 @@ pub(crate) fn refused<'f, F: std::fmt::Display>(
         ));
     }
     Failure::input(text)
+}
+
+/// Differences below this are those of digits, mm and rad.
+const SAME: f64 = 1e-6;
+
+/// A name as programs compare it.
+fn key(name: &str) -> String {
+    let letters = name.chars().filter(|letter| !letter.is_whitespace());
+    letters.collect::<String>().to_uppercase()
+}
+
+/// Frames of the job that no motion uses, or that the program states otherwise.
+fn warnings(source: &RobotSource, program: &RobotProgram) -> Vec<Warning> {
+    let stated = &source.settings.reading.frames;
+    if stated.is_empty() {
+        return Vec::new();
+    }
+    let used = frames(program);
+    let mut warnings: Vec<Warning> = (stated.keys())
+        // Systems of APT lie in the part.
+        .filter(|name| !used.contains_key(&key(name)) && key(name) != "PART")
+        .map(|name| {
+            let names: Vec<String> = used.values().map(|(_, used)| format!("`{}`", used.name)).collect();
+            Warning {
+                line: 1,
+                text: format!(
+                    "frames.\"{name}\" under [robot] is no tool or work object of a motion of this program, which has {}",
+                    names.join(", ")
+                ),
+            }
+        })
+        .collect();
+    warnings.extend(otherwise(source, &used));
+    warnings
+}
+
+/// Tools and work objects of the motions, with the line of the first use.
+fn frames(program: &RobotProgram) -> BTreeMap<String, (usize, &FrameUse)> {
+    let mut used = BTreeMap::new();
+    for motion in &program.motions {
+        for frame in [&motion.tool, &motion.work_object] {
+            used.entry(key(&frame.name)).or_insert((motion.line, frame));
+        }
+    }
+    used
+}
+
+/// True if a program may define a frame by itself: it assigns the name, or the controller has it.
+fn may_state(source: &RobotSource, name: &str) -> bool {
+    let name = key(name);
+    let is_first = ["TOOL0", "WOBJ0"].contains(&name.as_str())
+        || name.ends_with("[0]")
+        || name.ends_with(":0");
+    // `UTOOL[9]=PR[9]` gives `UT:9` a value.
+    let written = ["UF:", "UT:"].into_iter().zip(["UFRAME[", "UTOOL["]);
+    let mut written =
+        written.filter_map(|(of, word)| Some(format!("{word}{}]", name.strip_prefix(of)?)));
+    let name = written.next().unwrap_or(name);
+    is_first
+        || source
+            .files
+            .iter()
+            .any(|file| assigns(file.bytes(), name.as_bytes()))
+}
+
+/// True if the text contains `name =` or `name :=`, in capitals or not, with blanks or without.
+fn assigns(text: &[u8], name: &[u8]) -> bool {
+    let Some(first) = name.first() else {
+        return false;
+    };
+    let begins = (text.iter().enumerate()).filter(|(_, byte)| byte.eq_ignore_ascii_case(first));
+    begins.into_iter().any(|(at, _)| {
+        let mut rest = text[at..]
+            .iter()
+            .filter(|byte| !matches!(byte, b' ' | b'\t'));
+        let is_name = name.iter().all(|letter| {
+            let next = rest.next();
+            next.is_some_and(|next| next.eq_ignore_ascii_case(letter))
+        });
+        is_name
+            && matches!(
+                (rest.next(), rest.next()),
+                (Some(b'='), _) | (Some(b':'), Some(b'='))
+            )
+    })
+}
+
+/// Frames that the program states, too, and not the same: the job counts.
+fn otherwise(source: &RobotSource, used: &BTreeMap<String, (usize, &FrameUse)>) -> Vec<Warning> {
+    let mut reading = source.settings.reading.clone();
+    // A large program is not read a second time for a frame that it does not state.
+    let mut names = reading.frames.keys();
+    if !names.any(|name| used.contains_key(&key(name)) && may_state(source, name)) {
+        return Vec::new();
+    }
+    reading.frames.clear();
+    let Ok(own) = read(source.language, source.files.clone(), &reading) else {
+        return Vec::new();
+    };
+    let own = frames(&own);
+    let differs = |(name, (line, frame)): (&String, &(usize, &FrameUse))| {
+        let (job, (_, program)) = (frame.known()?, own.get(name)?);
+        let [away, turned] = distance(job, program.known()?);
+        (away > SAME || turned > SAME).then(|| Warning {
+            line: *line,
+            text: format!(
+                "`{}` of the job, under [robot.frames], is not what the program says it is, {} mm away and turned by {} deg: the job counts",
+                frame.name,
+                short(away),
+                short(turned.to_degrees())
+            ),
+        })
+    };
+    used.iter().filter_map(differs).collect()
+}
+
+/// The flat program, and where its lines came from; `comments`: its blocks say it, too.
+pub(crate) fn flat_text(source: &RobotSource, comments: bool) -> Answer<(FlatText, FlatProgram)> {
+    let files = source.files.clone();
+    let names: Vec<String> = files.iter().map(|file| file.name().to_owned()).collect();
+    let done = expand(source.language, files, &source.settings.reading)
+        .map_err(|all| refused(&all, |fault| fault.reason.as_str()).of_program())?;
+    let Some(text) = done else {
+        return Err(Failure::input(
+            "--expand and [expand] are for G-code, SINUMERIK, Heidenhain, RAPID, KRL and the cycles of APT; a program of another robot is read as it stands, with its routines: leave them out",
+        ));
+    };
+    let text = match comments {
+        true => text.with_origins(source.language, &names),
+        false => text,
+    };
+    let index = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
+    let origins = text.origins.iter();
+    let origins = origins.map(|(file, line)| (index(*file), index(*line)));
+    let flat = FlatProgram::new(names, text.origins.len(), origins.collect());
+    Ok((text, flat))
+}
+
+/// Assumptions of the run at uncertain source lines, at the first flat line of each.
+pub(crate) fn notes_of(text: &FlatText) -> Vec<Warning> {
+    let notes = text.findings.iter().map(|finding| {
+        let of_it = |origin: &(usize, usize)| *origin == (finding.file, finding.line);
+        let line = text.origins.iter().position(of_it);
+        Warning {
+            line: line.map_or(1, |index| index + 1),
+            text: finding.message.clone(),
+        }
+    });
+    notes.collect()
 }

@@ -5,21 +5,18 @@ use std::path::{Path, PathBuf};
 
 use kinetostat_formats::{FileForm, Language, SlashBlocks, SourceFile, language_of, odd_program};
 use nalgebra::Vector3;
-
 use serde_spanned::Spanned;
 
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::arguments::{ProgramArgs, ReadingArgs};
+use crate::job::expand_table::ExpandTable;
 use crate::job::format::BlockDeleteWord;
 use crate::job::job_file::JobFile;
 use crate::job::output_paths::beside_program;
-use crate::job::robot::config_frames::SystemFrames;
 use crate::job::robot::divided::Divided;
-use crate::job::robot::parquet;
 use crate::job::robot::read_once::Reading;
 use crate::job::robot::settings::{RobotSettings, settings};
-use crate::job::robot::unfit_options::refuse_unfit;
 use crate::ui::failure::{Answer, Failure};
 
 /// A program of a robot as it lies on disk, and how it is to be read.
@@ -61,7 +58,7 @@ impl RobotSource {
             return Ok((Cow::Borrowed(written), Vec::new()));
         };
         let name = self.files.first().map_or("", SourceFile::name);
-        let made = parquet::of_text(name, original, written)?;
+        let made = of_text(name, original, written)?;
         Ok((Cow::Owned(made.bytes), made.widened))
     }
 }
@@ -115,7 +112,7 @@ pub(crate) fn robot_source(
         (language, Vector3::from(language.usual_tool_axis())),
     )?;
     settings.reading.slash_blocks = slash_blocks(job, &program.reading);
-    let text = parquet::as_text(name, bytes)?;
+    let text = as_text(name, bytes)?;
     let mut source = RobotSource {
         language,
         parquet: text.as_ref().map(|_| bytes.to_vec()),
@@ -213,4 +210,129 @@ fn files_beside(language: Language, path: &Path, bytes: &[u8]) -> Vec<PathBuf> {
 fn only_of_robots(job: &JobFile) -> Option<(&'static str, &Spanned<String>)> {
     let call = job.job.calls.keys().next().map(|key| ("calls", key));
     call.or_else(|| job.job.values.keys().next().map(|key| ("values", key)))
+}
+
+/// A file in Parquet that was written.
+#[derive(Debug, Default)]
+pub(crate) struct Written {
+    pub(crate) bytes: Vec<u8>,
+    /// Columns that have another type now.
+    pub(crate) widened: Vec<String>,
+}
+
+/// The text of a program in Parquet; none of any other.
+fn as_text(name: &str, bytes: &[u8]) -> Answer<Option<Vec<u8>>> {
+    match bytes.starts_with(b"PAR1") {
+        true => text_of(bytes)
+            .map_err(|what| Failure::input(format!("the table in Parquet '{name}': {what}"))),
+        false => Ok(None),
+    }
+}
+
+/// A program in Parquet with the numbers of a text.
+fn of_text(name: &str, original: &[u8], text: &[u8]) -> Answer<Written> {
+    file_of(original, text).map_err(|what| {
+        Failure::input(format!(
+            "the table in Parquet '{name}' cannot be written corrected: {what}"
+        ))
+    })
+}
+
+#[cfg(feature = "parquet")]
+fn text_of(bytes: &[u8]) -> Result<Option<Vec<u8>>, String> {
+    kinetostat_formats::table_of_parquet(bytes).map(Some)
+}
+
+#[cfg(not(feature = "parquet"))]
+fn text_of(_bytes: &[u8]) -> Result<Option<Vec<u8>>, String> {
+    Ok(None)
+}
+
+#[cfg(feature = "parquet")]
+fn file_of(original: &[u8], text: &[u8]) -> Result<Written, String> {
+    let made = kinetostat_formats::parquet_of_table(original, text)?;
+    Ok(Written {
+        bytes: made.bytes,
+        widened: made.widened,
+    })
+}
+
+#[cfg(not(feature = "parquet"))]
+fn file_of(_original: &[u8], _text: &[u8]) -> Result<Written, String> {
+    Err("this kinetostat does not write it".to_owned())
+}
+
+/// Refuses what would have no effect.
+fn refuse_unfit(job: Option<&JobFile>, flags: &ProgramArgs, language: Language) -> Answer<()> {
+    // A control has the switch for blocks behind a slash, as G-code has.
+    let has_switch = language.has_slash_switch();
+    let refuse = |what: &str, why: &str| {
+        Err(Failure::input(format!(
+            "{what} is for G-code; {why}: leave it out"
+        )))
+    };
+    let reading = &flags.reading;
+    let words = "a program of a robot says it by its own statements";
+    for (option, is_given) in [
+        ("--units", reading.units.is_some()),
+        ("--arc-tolerance", reading.arc_tolerance.is_some()),
+        ("--work-offset", !reading.work_offset.is_empty()),
+        (
+            "--block-delete",
+            reading.block_delete.is_some() && !has_switch,
+        ),
+        ("--axes-stand-still", reading.axes_stand_still),
+        ("--tool-centre-point", reading.tool_centre_point),
+        ("--start-position-mm", reading.start_position_mm.is_some()),
+        ("--machine-zero-mm", reading.machine_zero_mm.is_some()),
+        ("--g28-mm", reading.g28_mm.is_some()),
+        ("--g30-mm", reading.g30_mm.is_some()),
+    ] {
+        if is_given {
+            return refuse(option, words);
+        }
+    }
+    let table = job.map(|j| &j.job.reading);
+    let given = table.is_some_and(|table| {
+        table.units.is_some()
+            || table.arc_tolerance_mm.is_some()
+            || table.block_delete.is_some() && !has_switch
+            || table.axes_stand_still.is_some()
+            || table.tool_centre_point.is_some()
+            || table.start_position_mm.is_some()
+            || table.machine_zero_mm.is_some()
+            || table.g28_mm.is_some()
+            || table.g30_mm.is_some()
+            || table.work_offset_mm.is_some()
+    });
+    if given {
+        return refuse("[reading] in the job file", words);
+    }
+    let flat = "what a control's program needs to be run once, it says itself";
+    if let Some(option) = flags.expansion.with.given_for_gcode() {
+        return refuse(option, flat);
+    }
+    let table = job.and_then(|j| j.job.expand.as_ref());
+    let given = table
+        .map(Spanned::get_ref)
+        .and_then(ExpandTable::given_for_gcode);
+    if let Some(key) = given {
+        return refuse(&format!("{key} under [expand]"), flat);
+    }
+    let in_job = job.is_some_and(|j| j.job.placement.scale.is_some());
+    match flags.scale.is_some() || in_job {
+        true => refuse(
+            "the scale (--scale, scale under [placement])",
+            "a program of a robot is in the robot's own millimetres",
+        ),
+        false => Ok(()),
+    }
+}
+
+/// Tools and bases that were found.
+#[derive(Clone, Debug)]
+pub(crate) struct SystemFrames {
+    pub(super) path: PathBuf,
+    /// `BASE_DATA[2]`, ... in capitals.
+    pub(super) names: Vec<String>,
 }

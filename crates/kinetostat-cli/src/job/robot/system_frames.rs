@@ -8,9 +8,8 @@ use kinetostat_program::Warning;
 
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
-use crate::job::robot::config_frames::SystemFrames;
 use crate::job::robot::folder::Folder;
-use crate::job::robot::source::RobotSource;
+use crate::job::robot::source::{RobotSource, SystemFrames};
 use crate::ui::failure::Answer;
 
 /// An archive of a controller has its programs in `KRC/R1/Program` and folders of that, and `$config.dat` in `KRC/R1/System`.

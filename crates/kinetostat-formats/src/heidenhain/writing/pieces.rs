@@ -8,8 +8,7 @@ use crate::heidenhain::writing::arc::Block;
 use crate::heidenhain::writing::words::{Part, When, functions_of};
 use crate::heidenhain::writing::writer::{ABOUT_CENTRE, Reason, SAME_MM, Writer};
 use crate::model::motion::Motion;
-use crate::writing::piece::Piece;
-use crate::writing::refusals::FARTHEST_MM;
+use crate::writing::piece::{FARTHEST_MM, Piece};
 
 impl Writer<'_> {
     pub(crate) fn pieces(

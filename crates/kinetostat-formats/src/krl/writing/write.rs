@@ -17,10 +17,9 @@ use crate::options::{ExactStops, WriteOptions};
 use crate::text::edits::Edits;
 use crate::text::name::Name;
 use crate::text::source::SourceFile;
-use crate::writing::literal::Wanted;
 use crate::writing::motions::write_with;
 use crate::writing::piece::Piece;
-use crate::writing::syntax::{PieceLiterals, Renamed, Syntax, replace_word};
+use crate::writing::syntax::{PieceLiterals, Renamed, Syntax, Wanted, replace_word};
 
 /// Limit of the characters of a name.
 const LONGEST: usize = 24;

@@ -17,8 +17,7 @@ use crate::siemens::scan::scan;
 use crate::siemens::writing::writer::{Held, Reason, SAME, Writer};
 use crate::text::edits::Edits;
 use crate::writing::line_length::check_lines;
-use crate::writing::piece::Piece;
-use crate::writing::refusals::check_pieces;
+use crate::writing::piece::{Piece, check_pieces};
 
 /// Limit of the bytes of a block.
 const LONGEST_BLOCK: usize = 512;

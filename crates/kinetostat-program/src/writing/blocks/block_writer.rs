@@ -3,22 +3,18 @@
 use nalgebra::Vector3;
 
 use crate::error::WriteError;
+use crate::number;
 use crate::path::curve::Curve;
-use crate::path::moves::Move;
+use crate::path::moves::{ExtraAxis, ExtraMode, Motion, Move, Path};
 use crate::text::line::{Line, Word};
 use crate::text::program::Program;
 use crate::writing::blocks::arc_of_piece::arc_words;
 use crate::writing::blocks::axis_words::AxisWords;
-use crate::writing::blocks::block_text::{AXES, BlockText, Edits, Place, motion_word};
-use crate::writing::blocks::extra_words::ExtraWords;
+use crate::writing::blocks::block_text::{AXES, BlockText, Edits, Place, motion_word, number_span};
 use crate::writing::blocks::feed_words::FeedWords;
-use crate::writing::blocks::motion_words::{
-    arc_motion, code_of, edit_motion_words, motion_of_piece,
-};
-use crate::writing::blocks::program_style::ProgramStyle;
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::{OutputMove, OutputState, motion_of};
-use crate::writing::rotary_words::TurnedAxes;
+use crate::writing::rotary_words::{EXTRA_DECIMALS, TurnedAxes};
 
 /// Writes the pieces of one block.
 pub(crate) struct BlockWriter<'a> {
@@ -220,5 +216,157 @@ fn written_length(state: &OutputState, from: &Vector3<f64>) -> f64 {
     match &state.arc {
         Some(arc) => Curve::Arc(arc.between(from, to)).length_between(from, to, 0.0, 1.0),
         None => (to - from).norm(),
+    }
+}
+
+/// Shares out the words of a block.
+pub(crate) struct ExtraWords<'a> {
+    pub text: BlockText<'a>,
+    pub motion: &'a Move,
+}
+
+impl ExtraWords<'_> {
+    /// The words of a piece of a divided block, but for those of rotary axes whose angles are corrected.
+    pub fn shares(
+        &self,
+        turned: &TurnedAxes<'_>,
+        (steps, index): (&[OutputMove], usize),
+    ) -> Result<Vec<(u8, String)>, WriteError> {
+        let mut words = Vec::new();
+        for extra in &self.motion.extra {
+            // Also the words that are not written tell whether they can be shared out.
+            let number = self.share(extra, &steps[index])?;
+            if !turned.has_word(extra.letter, steps) {
+                words.push((extra.letter as u8, number));
+            }
+        }
+        Ok(words)
+    }
+
+    /// The share of a word in a piece.
+    fn share(&self, extra: &ExtraAxis, step: &OutputMove) -> Result<String, WriteError> {
+        let refuse = |reason: &str| WriteError::ExtraAxis {
+            line: self.motion.line,
+            letter: extra.letter,
+            reason: reason.to_owned(),
+        };
+        let original = self.text.word(extra.letter as u8).map_or(&b""[..], |word| {
+            &self.text.program.bytes()[number_span(word)]
+        });
+        let decimals = number::decimals_of(original).clamp(EXTRA_DECIMALS, 9);
+        Ok(match (extra.mode, extra.start) {
+            (ExtraMode::Disputed, _) => {
+                return Err(refuse(
+                    "M82/M83 and the later G90/G91 disagree whether it is absolute, and so do firmwares; write M82 or M83 again after G90 or G91",
+                ));
+            }
+            (ExtraMode::Absolute, None) => {
+                return Err(refuse(
+                    "the program has not stated where the axis is before; write a block with its place, or G92, before",
+                ));
+            }
+            (ExtraMode::Absolute, Some(_)) if step.share_to >= 1.0 => {
+                String::from_utf8_lossy(original).into_owned()
+            }
+            (ExtraMode::Absolute, Some(start)) => {
+                number::fixed(start + (extra.word - start) * step.share_to, decimals)
+            }
+            (ExtraMode::Incremental, _) => {
+                // Whole units of the last decimal, so that the pieces add up to the word.
+                let unit = 10_f64.powi(decimals as i32);
+                let reached = |share: f64| (extra.word * unit * share).round();
+                let units = reached(step.share_to) - reached(step.share_from);
+                number::fixed(units / unit, decimals)
+            }
+        })
+    }
+}
+
+/// The motion word that a piece of this move needs.
+fn motion_of_piece(motion: &Move, step: &OutputMove) -> Motion {
+    match step.arc {
+        Some(_) => arc_motion(motion),
+        None => motion_of(motion),
+    }
+}
+
+/// The motion word of an arc: its angle grows counter-clockwise about the plane's normal.
+fn arc_motion(motion: &Move) -> Motion {
+    match &motion.curve {
+        Curve::Arc(arc) if arc.sweep < 0.0 => Motion::Clockwise,
+        Curve::Arc(_) => Motion::CounterClockwise,
+        Curve::Line => motion_of(motion),
+    }
+}
+
+/// The number of a motion word.
+fn code_of(motion: Motion) -> &'static str {
+    match motion {
+        Motion::Rapid => "0",
+        Motion::Clockwise => "2",
+        Motion::CounterClockwise => "3",
+        Motion::Feed | Motion::Off => "1",
+    }
+}
+
+/// Edits the motion on the block's own line: if its piece is straight, G2 and G3 become G1, and the words of the arc go.
+fn edit_motion_words(
+    (text, motion): (&BlockText<'_>, &Move),
+    state: &OutputState,
+    own: Motion,
+    edits: &mut Edits,
+) {
+    let straightened = motion.curve != Curve::Line && own == motion_of(motion);
+    if let Some(word) = motion_word(text.words) {
+        if straightened {
+            let digits = match text.program.bytes()[word.number as usize] {
+                b'0' => "01",
+                _ => "1",
+            };
+            edits.replaced.push((number_span(word), digits.to_owned()));
+        }
+    } else if state.motion != Some(own) {
+        let coordinate = text.words.iter().find(|word| AXES.contains(&word.letter));
+        let (at, after) = match coordinate {
+            Some(word) => (word.start as usize, text.separator),
+            None => (text.place_for_added(), ""),
+        };
+        let word = format!("{}{}{after}", text.cased(b'G'), code_of(own));
+        edits.replaced.push((at..at, word));
+    }
+    if straightened {
+        let of_arc = |word: &&Word| b"IJKRP".contains(&word.letter);
+        for word in text.words.iter().filter(of_arc) {
+            text.remove_word(edits, word);
+        }
+    }
+}
+
+/// Style common to all blocks of a program.
+pub(crate) struct ProgramStyle {
+    /// Axes that may be written.
+    pub stated: [bool; 3],
+    /// See [`Path::tool_axis`].
+    pub tool_axis: Vector3<f64>,
+    /// Every motion of the program has its own motion word, so its pieces must too: it may be meant for
+    /// a firmware without modal motion (most printers').
+    pub repeats_motion: bool,
+}
+
+impl ProgramStyle {
+    pub fn of(program: &Program, path: &Path) -> Self {
+        let names_motion = |motion: &Move| {
+            program
+                .line(motion.line)
+                .is_some_and(|line| motion_word(program.words(line)).is_some())
+        };
+        Self {
+            stated: path.stated,
+            tool_axis: path.tool_axis,
+            repeats_motion: match program.part() {
+                Some(part) => part.repeats_motion,
+                None => path.moves.iter().all(names_motion),
+            },
+        }
     }
 }

@@ -8,7 +8,4 @@ pub(crate) mod arc_of_piece;
 pub(crate) mod axis_words;
 pub(crate) mod block_text;
 pub(crate) mod block_writer;
-pub(crate) mod extra_words;
 pub(crate) mod feed_words;
-pub(crate) mod motion_words;
-pub(crate) mod program_style;

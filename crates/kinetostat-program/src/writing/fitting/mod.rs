@@ -23,5 +23,4 @@ pub(crate) mod circle;
 pub(crate) mod fit;
 pub(crate) mod free_ends;
 pub(crate) mod long_pieces;
-pub(crate) mod search;
 pub(crate) mod stretch;

@@ -1,19 +1,18 @@
 //! Contents of a paper, in order.
 
 mod chatter;
-mod inputs;
 mod of;
-mod results;
 mod tables;
 
 use kinetostat_machining::Level;
 
 use crate::number;
-use crate::paper::block::{Block, Contents};
+use crate::paper::block::{Block, Cell, Column, Contents, Remark, Table};
 use crate::paper::content::of::{MOST, Of, more};
 use crate::paper::question::Paper;
 use crate::paper::words::table::fill;
-use crate::paper::words::{statement, words};
+use crate::paper::words::{left as in_words, statement, words};
+use crate::run::facts;
 use crate::run::meaning::assessment;
 use crate::run::shown::Shown;
 use crate::text::{clean, shorten};
@@ -37,22 +36,22 @@ pub(crate) fn contents(paper: &Paper<'_>, result: &Shown<'_>) -> Contents {
     let program = shorten(&of.text(&inputs.program), 80);
     let machine = shorten(&of.text(&inputs.model), 80);
     let version = shorten(&result.kinetostat_version, 40);
-    let mut blocks = vec![Block::Facts(inputs::head(&of)), verdict(&of)];
+    let mut blocks = vec![Block::Facts(head(&of)), verdict(&of)];
     if !words.quoted.is_empty() {
         blocks.push(Block::Note(words.quoted.to_owned()));
     }
-    blocks.extend(results::results(&of));
+    blocks.extend(results(&of));
     blocks.extend(tables::features(&of));
     blocks.extend(tables::worst(&of));
     blocks.extend(tables::drives(&of));
     blocks.extend(tables::cut(&of));
     blocks.extend(chatter::chatter(&of));
-    blocks.extend(results::left(&of));
+    blocks.extend(left(&of));
     blocks.extend(warnings(&of));
     blocks.push(Block::Heading(words.head_inputs.to_owned()));
-    blocks.push(Block::Facts(inputs::inputs(&of)));
+    blocks.push(Block::Facts(input_facts(&of)));
     blocks.push(Block::Heading(words.head_files.to_owned()));
-    blocks.push(inputs::files(&of));
+    blocks.push(files(&of));
     blocks.push(Block::Heading(words.head_signatures.to_owned()));
     blocks.push(Block::Signatures(
         words
@@ -153,4 +152,205 @@ fn warnings(of: &Of<'_>) -> Vec<Block> {
     ];
     blocks.extend(more(of.words.more_warnings, all.len()));
     blocks
+}
+
+type Fact = (String, Vec<String>);
+
+fn fact(name: &str, text: String) -> Fact {
+    (name.to_owned(), vec![text])
+}
+
+fn list(name: &str, lines: &[String], otherwise: &str) -> Fact {
+    let mut lines: Vec<String> = lines.iter().map(|line| clean(line)).collect();
+    if lines.is_empty() {
+        lines.push(otherwise.to_owned());
+    }
+    (name.to_owned(), lines)
+}
+
+/// The first lines: what the paper is about.
+fn head(of: &Of<'_>) -> Vec<Fact> {
+    let (words, inputs) = (of.words, &of.result.run_inputs);
+    let mut facts = vec![fact(
+        words.date,
+        of.text(inputs.date.as_deref().unwrap_or_default()),
+    )];
+    facts.push(fact(words.program, of.text(&inputs.program)));
+    if let Some(verified) = &of.paper.verified {
+        facts.push(fact(words.original, of.text(&verified.original)));
+    }
+    facts.push(fact(words.machine, of.text(&inputs.model)));
+    facts
+}
+
+/// Model, tool, load and tolerances.
+fn input_facts(of: &Of<'_>) -> Vec<Fact> {
+    let (words, inputs) = (of.words, &of.result.run_inputs);
+    let summary = &of.result.summary;
+    let setting = |mm: f64| of.figure(&number::length_setting(mm));
+    let bytes = |blocks: usize, bytes: usize| {
+        let [blocks, bytes] = [blocks, bytes].map(number::count);
+        fill(
+            words.bytes,
+            &[("blocks", blocks.as_str()), ("bytes", &bytes)],
+        )
+    };
+    let mut facts = vec![
+        fact(words.machine, of.text(&inputs.model)),
+        fact(words.model_from, of.text(&inputs.model_source)),
+        list(words.deviations, &inputs.model_deviations, words.none),
+        list(words.stiffnesses, &inputs.stiffnesses, words.not_stated),
+        fact(words.tool, of.text(&inputs.tool)),
+        fact(words.orientation, of.text(&inputs.tool_orientation)),
+        fact(words.load, of.text(&inputs.load)),
+        list(words.material, &inputs.cut, words.no_material),
+        fact(words.placement, of.text(&inputs.placement)),
+        fact(words.path, of.figure(&of.result.figures.feed_length)),
+    ];
+    if let Some(flat) = &inputs.flat {
+        facts.push(list(words.flat, &flat.settings, words.not_stated));
+    }
+    facts.push(fact(
+        words.blocks_read,
+        bytes(summary.blocks, summary.bytes_in),
+    ));
+    if !inputs.compensated || of.paper.verified.is_some() {
+        return facts;
+    }
+    let tolerance = setting(inputs.tolerance_mm);
+    let from = clean(&inputs.tolerance_from);
+    facts.extend([
+        fact(
+            words.blocks_written,
+            bytes(summary.blocks_out, summary.bytes_out),
+        ),
+        fact(
+            words.tolerance_path,
+            match from.is_empty() {
+                true => tolerance,
+                false => format!("{tolerance}: {from}"),
+            },
+        ),
+        fact(words.tolerance_chords, setting(inputs.chord_tolerance_mm)),
+        fact(words.decimals, inputs.decimals.to_string()),
+    ]);
+    facts
+}
+
+/// Files with their hashes.
+fn files(of: &Of<'_>) -> Block {
+    let words = of.words;
+    let files = of.result.run_inputs.files.iter().chain(&of.paper.written);
+    let rows: Vec<Vec<Cell>> = files
+        .map(|file| {
+            let what = words.file(&clean(&file.what));
+            [what, clean(&file.name), clean(&file.sha256)]
+                .map(Cell::from)
+                .to_vec()
+        })
+        .collect();
+    if rows.is_empty() {
+        return Block::Paragraph(words.not_stated.to_owned());
+    }
+    Block::Table(Table {
+        columns: vec![
+            Column::words(words.file_what),
+            Column::words(words.file_name),
+            Column::short("SHA-256"),
+        ],
+        rows,
+    })
+}
+
+/// Figures of the whole run.
+fn results(of: &Of<'_>) -> Vec<Block> {
+    let (words, result) = (of.words, of.result);
+    let (summary, figures) = (&result.summary, &result.figures);
+    let verified = of.paper.verified.as_ref();
+    let after = of.has_after();
+    let mut columns = vec![Column::words(words.figure)];
+    columns.extend(
+        match (verified, after) {
+            (Some(_), _) => vec![words.of_original, words.of_verified],
+            (None, true) => vec![words.before, words.after],
+            (None, false) => vec![words.before],
+        }
+        .into_iter()
+        .map(Column::figures),
+    );
+    let mut rows: Vec<Vec<Cell>> = Vec::new();
+    let mut row = |name: &str, before: &str, behind: &str| {
+        let mut cells = vec![Cell::from(name.to_owned())];
+        match after {
+            true => cells.extend([before, behind].map(|text| Cell::from(of.figure(text)))),
+            false if before.is_empty() => cells.push(of.figure(behind).into()),
+            false => cells.push(of.figure(before).into()),
+        }
+        rows.push(cells);
+    };
+    row(
+        words.largest_error,
+        &figures.error_before,
+        &figures.error_after,
+    );
+    row(words.rms_error, &figures.rms_before, &figures.rms_after);
+    let allowed_mm = verified.map_or_else(|| result.allowed_mm(), |v| v.allowed_mm);
+    if after {
+        let allowed = number::against(summary.max_position_error_after_mm, allowed_mm).1;
+        row(words.allowed_in_all, "", &allowed);
+        let [yes, no] = words.yes_no;
+        if let Some(held) = result.tolerance.held {
+            row(words.held, "", if held { yes } else { no });
+        }
+    }
+    if after && verified.is_none() {
+        row(words.rounding, "", &figures.rounding);
+        row(words.largest_correction, "", &figures.correction);
+        row(words.speed, "", &figures.speed);
+        if let Some(most) = &figures.blocks_per_second {
+            row(words.blocks_per_second, "", most);
+        }
+    }
+    row(words.tilt, "", &figures.rotation);
+    row(words.stiffness, "", &figures.stiffness);
+    match &figures.share_to_buckling {
+        Some(share) => row(words.buckling, "", share),
+        None => row(words.no_buckling, "", ""),
+    }
+    row(words.points, "", &number::count(summary.points));
+    let [yes, no] = words.yes_no;
+    row(words.stable, "", if summary.stable { yes } else { no });
+    let mut blocks = vec![
+        Block::Heading(words.head_results.to_owned()),
+        Block::Table(Table { columns, rows }),
+    ];
+    if result.run_inputs.compensated && verified.is_none() {
+        blocks.push(Block::Note(words.read_back.to_owned()));
+    }
+    blocks
+}
+
+/// Uncorrected errors, and effects that no figure covers.
+fn left(of: &Of<'_>) -> Vec<Block> {
+    let words = of.words;
+    // A program that was verified was written by others: of its steps nothing is known.
+    let all = facts::left(of.result).into_iter();
+    let known = all.filter(|left| of.paper.verified.is_none() || *left == facts::Left::Tilt);
+    let remarks: Vec<Remark> = known
+        .map(|left| {
+            let [name, size, text] = in_words(of.language, left, of.result);
+            Remark { name, size, text }
+        })
+        .collect();
+    vec![
+        Block::Heading(words.head_left.to_owned()),
+        Block::Paragraph(
+            match of.result.chatter {
+                None => words.not_covered,
+                Some(_) => words.not_covered_beside_chatter,
+            }
+            .to_owned(),
+        ),
+        Block::Remarks(remarks),
+    ]
 }
