@@ -264,12 +264,8 @@ fn summary(own: &mut Summary, next: &Summary) {
         (Some(a), Some(b)) if b.length_mm > a.length_mm => Some(b),
         (a, b) => a.or(b),
     };
-    for (own, next) in [
-        (&mut own.feed_time_before_s, next.feed_time_before_s),
-        (&mut own.feed_time_after_s, next.feed_time_after_s),
-    ] {
-        sum_of(own, next);
-    }
+    sum_of(&mut own.feed_time_before_s, next.feed_time_before_s);
+    sum_of(&mut own.feed_time_after_s, next.feed_time_after_s);
     largest_figures(own, next);
     // The length is 0 for parts that divide nothing.
     own.smallest_piece_mm = match (own.smallest_piece_mm > 0.0, next.smallest_piece_mm > 0.0) {
@@ -290,73 +286,37 @@ fn summary(own: &mut Summary, next: &Summary) {
     own.solving.add(&next.solving);
 }
 
+/// Takes a field of `$next` into the same field of `$own` by a function, for each field listed.
+macro_rules! fields {
+    ($take:ident($own:ident, $next:ident): $($field:ident,)+) => {
+        $($take(&mut $own.$field, $next.$field);)+
+    };
+}
+
 fn largest_figures(own: &mut Summary, next: &Summary) {
-    for (own, next) in [
-        (&mut own.largest_corner_step_mm, next.largest_corner_step_mm),
-        (&mut own.largest_entry_step_mm, next.largest_entry_step_mm),
-        (
-            &mut own.largest_backward_step_mm,
-            next.largest_backward_step_mm,
-        ),
-        (
-            &mut own.max_position_error_before_mm,
-            next.max_position_error_before_mm,
-        ),
-        (
-            &mut own.max_position_error_after_mm,
-            next.max_position_error_after_mm,
-        ),
-        (&mut own.max_rounding_error_mm, next.max_rounding_error_mm),
-        (&mut own.max_correction_mm, next.max_correction_mm),
-        (
-            &mut own.max_residual_rotation_deg,
-            next.max_residual_rotation_deg,
-        ),
-        (
-            &mut own.max_speed_deviation_percent,
-            next.max_speed_deviation_percent,
-        ),
-    ] {
-        most(own, next);
-    }
-    for (own, next) in [
-        (
-            &mut own.max_displacement_by_weight_mm,
-            next.max_displacement_by_weight_mm,
-        ),
-        (
-            &mut own.max_error_by_own_weight_mm,
-            next.max_error_by_own_weight_mm,
-        ),
-        (
-            &mut own.max_corner_error_if_load_turns_mm,
-            next.max_corner_error_if_load_turns_mm,
-        ),
-        (
-            &mut own.max_corner_error_if_load_follows_feed_mm,
-            next.max_corner_error_if_load_follows_feed_mm,
-        ),
-        (
-            &mut own.peak_blocks_per_second_before,
-            next.peak_blocks_per_second_before,
-        ),
-        (
-            &mut own.peak_blocks_per_second_after,
-            next.peak_blocks_per_second_after,
-        ),
-        (&mut own.blocks_per_second, next.blocks_per_second),
-        (&mut own.max_tool_turn_deg, next.max_tool_turn_deg),
-        (
-            &mut own.largest_share_to_buckling,
-            next.largest_share_to_buckling,
-        ),
-        (
-            &mut own.largest_share_of_rating,
-            next.largest_share_of_rating,
-        ),
-    ] {
-        most_of(own, next);
-    }
+    fields!(most(own, next):
+        largest_corner_step_mm,
+        largest_entry_step_mm,
+        largest_backward_step_mm,
+        max_position_error_before_mm,
+        max_position_error_after_mm,
+        max_rounding_error_mm,
+        max_correction_mm,
+        max_residual_rotation_deg,
+        max_speed_deviation_percent,
+    );
+    fields!(most_of(own, next):
+        max_displacement_by_weight_mm,
+        max_error_by_own_weight_mm,
+        max_corner_error_if_load_turns_mm,
+        max_corner_error_if_load_follows_feed_mm,
+        peak_blocks_per_second_before,
+        peak_blocks_per_second_after,
+        blocks_per_second,
+        max_tool_turn_deg,
+        largest_share_to_buckling,
+        largest_share_of_rating,
+    );
     for (own, next) in [
         (&mut own.max_actuator_force, &next.max_actuator_force),
         (

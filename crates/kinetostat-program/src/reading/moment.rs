@@ -97,88 +97,29 @@ const LINUXCNC: [Acts; 5] = [Before, Absent, Builder, Builder, Builder];
 
 /// Every M code that may stand beside a motion, and when it acts. Any other is refused there: only the
 /// machine's builder knows whether it acts before or after the motion.
+#[rustfmt::skip]
 pub const MOMENTS: &[Moment] = &[
     moment(0, "stop", [After, After, After, After, OwnBlock], Last),
-    moment(
-        1,
-        "optional stop",
-        [After, After, After, Unsaid, OwnBlock],
-        Last,
-    ),
-    moment(
-        2,
-        "end of program",
-        [After, After, After, After, OwnBlock],
-        Last,
-    ),
+    moment(1, "optional stop", [After, After, After, Unsaid, OwnBlock], Last),
+    moment(2, "end of program", [After, After, After, After, OwnBlock], Last),
     moment(3, "spindle clockwise", [Before; 5], First),
     moment(4, "spindle counter-clockwise", [Before; 5], First),
-    moment(
-        5,
-        "spindle stop",
-        [Before, Before, Before, After, After],
-        Last,
-    ),
-    moment(
-        6,
-        "tool change",
-        [Before, Absent, Builder, After, Builder],
-        Refused,
-    ),
-    moment(
-        7,
-        "mist on",
-        [Before, Before, During, Builder, Unsaid],
-        First,
-    ),
-    moment(
-        8,
-        "coolant on",
-        [Before, Before, During, Before, Unsaid],
-        First,
-    ),
-    moment(
-        9,
-        "coolant off",
-        [Before, Before, During, After, Unsaid],
-        Last,
-    ),
-    moment(
-        13,
-        "spindle clockwise, coolant on",
-        [Absent, Absent, Builder, Before, Unsaid],
-        First,
-    ),
-    moment(
-        14,
-        "spindle counter-clockwise, coolant on",
-        [Absent, Absent, Builder, Before, Unsaid],
-        First,
-    ),
-    moment(
-        19,
-        "spindle to an angle",
-        [Before, Absent, Before, Builder, OwnBlock],
-        Refused,
-    ),
-    moment(
-        30,
-        "end of program",
-        [After, After, After, After, OwnBlock],
-        Last,
-    ),
+    moment(5, "spindle stop", [Before, Before, Before, After, After], Last),
+    moment(6, "tool change", [Before, Absent, Builder, After, Builder], Refused),
+    moment(7, "mist on", [Before, Before, During, Builder, Unsaid], First),
+    moment(8, "coolant on", [Before, Before, During, Before, Unsaid], First),
+    moment(9, "coolant off", [Before, Before, During, After, Unsaid], Last),
+    moment(13, "spindle clockwise, coolant on", [Absent, Absent, Builder, Before, Unsaid], First),
+    moment(14, "spindle counter-clockwise, coolant on", [Absent, Absent, Builder, Before, Unsaid], First),
+    moment(19, "spindle to an angle", [Before, Absent, Before, Builder, OwnBlock], Refused),
+    moment(30, "end of program", [After, After, After, After, OwnBlock], Last),
     moment(48, "overrides on", LINUXCNC, First),
     moment(49, "overrides off", LINUXCNC, First),
     moment(50, "feed override", LINUXCNC, First),
     moment(51, "spindle override", LINUXCNC, First),
     moment(52, "adaptive feed", LINUXCNC, First),
     moment(53, "feed stop", LINUXCNC, First),
-    moment(
-        60,
-        "pallet change and stop",
-        [After, Absent, Builder, Builder, Builder],
-        Last,
-    ),
+    moment(60, "pallet change and stop", [After, Absent, Builder, Builder, Builder], Last),
     moment(62, "output on with the motion", LINUXCNC, First),
     moment(63, "output off with the motion", LINUXCNC, First),
     moment(64, "output on", LINUXCNC, First),
@@ -186,18 +127,8 @@ pub const MOMENTS: &[Moment] = &[
     moment(66, "wait for an input", LINUXCNC, First),
     moment(67, "analog output with the motion", LINUXCNC, First),
     moment(68, "analog output", LINUXCNC, First),
-    moment(
-        82,
-        "absolute extruder words",
-        [Absent, Absent, Builder, Builder, Builder],
-        First,
-    ),
-    moment(
-        83,
-        "relative extruder words",
-        [Absent, Absent, Builder, Builder, Builder],
-        First,
-    ),
+    moment(82, "absolute extruder words", [Absent, Absent, Builder, Builder, Builder], First),
+    moment(83, "relative extruder words", [Absent, Absent, Builder, Builder, Builder], First),
 ];
 
 /// The line of an M code, in tenths: M5 is 50.
