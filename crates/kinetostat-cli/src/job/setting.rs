@@ -8,7 +8,7 @@ use kinetostat::number::larger;
 use kinetostat_formats::{FileForm, stays_beside_flat};
 use kinetostat_machining::{Feature, FileRead, FlatProgram, ForceAlongPath, Limits, WarningCode};
 use kinetostat_program::{
-    Arcs, Corrected, Path as ToolPath, ReadOptions, RotaryAxes, Warning, WriteOptions,
+    Arcs, Corrected, Dialect, Path as ToolPath, ReadOptions, RotaryAxes, Warning, WriteOptions,
 };
 
 use crate::files::input_files::{InputFiles, refuse_beyond_memory};
@@ -215,7 +215,7 @@ pub(crate) fn setting(
     let mut inputs: Vec<PathBuf> = job.iter().map(|j| j.path.clone()).collect();
     let path = program_path(job, flags)?;
     inputs.push(path.clone());
-    let reading = reading(job, &flags.reading)?;
+    let mut reading = reading(job, &flags.reading)?;
     let limits = limits(job, &flags.limits)?;
     let (mut write, stated) = tolerances(job, flags, writing)?;
     // Stated chords have a share of their own.
@@ -239,6 +239,9 @@ pub(crate) fn setting(
         |n| n.to_string_lossy().into_owned(),
     );
     let expand = wanted(job, (&flags.expansion, flags.robot.converted), &reading)?;
+    reading.carries_cycles = expand
+        .as_ref()
+        .is_some_and(|expand| expand.options.dialect == Dialect::Fanuc);
     let form = match expand {
         Some(_) => Form::Flat,
         None => Form::AsItStands,

@@ -48,7 +48,8 @@ pub fn expand(
     if let Some(library) = only_definitions(&bytes) {
         return Err(library);
     }
-    let mut runner = Runner::new(bytes, options, subprograms);
+    let options = options.of_dialect();
+    let mut runner = Runner::new(bytes, &options, subprograms);
     runner.run()?;
     finished(runner)
 }
@@ -77,7 +78,8 @@ pub fn expand_or_faults(
     if let Some(library) = only_definitions(&bytes) {
         return Err(vec![library]);
     }
-    let mut runner = Runner::new(bytes, options, subprograms);
+    let options = options.of_dialect();
+    let mut runner = Runner::new(bytes, &options, subprograms);
     let found = runner.refused_lines();
     match found.is_empty() {
         true => finished(runner).map_err(|fault| vec![fault]),

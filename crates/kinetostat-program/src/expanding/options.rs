@@ -74,3 +74,12 @@ impl Default for ExpandOptions {
         }
     }
 }
+
+impl ExpandOptions {
+    /// The options with those of the reading that follow from the dialect.
+    pub(crate) fn of_dialect(&self) -> Self {
+        let mut own = self.clone();
+        own.reading.carries_cycles |= self.dialect == Dialect::Fanuc;
+        own
+    }
+}

@@ -32,6 +32,8 @@ pub(crate) struct Codes {
     pub path_mode: Option<u32>,
     pub speed_mode: Option<u32>,
     pub retract_mode: Option<u32>,
+    /// A canned cycle that may be carried as it is written, in tenths.
+    pub cycle: Option<u32>,
     pub spindle: Option<u32>,
     pub coolant: Option<u32>,
     pub overrides: Option<u32>,
@@ -196,6 +198,14 @@ impl<'p> Block<'p> {
             };
         }
         match code.map(|code| (code.meaning, code.treatment)) {
+            Some((_, Treatment::Refused { .. }))
+                if letter == 'G' && matches!(tenths, 740 | 760 | 840 | 870 | 880) =>
+            {
+                return match self.codes.cycle.replace(tenths) {
+                    Some(_) => Err(self.meets_its_like(word)),
+                    None => Ok(()),
+                };
+            }
             Some((meaning, Treatment::Refused { reason, remedy })) => {
                 return Err(self.refuse(
                     ProgramErrorKind::UnknownCode,

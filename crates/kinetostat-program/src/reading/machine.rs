@@ -42,7 +42,7 @@ pub(crate) fn machine_place(
         if !any {
             return Ok(None);
         }
-        check_machine_coordinates(block, modes)?;
+        check_machine_coordinates(block, modes, options.carries_cycles)?;
     }
     let zero = options.machine_zero_mm;
     let reference = match block.codes.machine {
@@ -60,6 +60,7 @@ pub(crate) fn machine_place(
     let mut places_mm = [None; 3];
     for axis in (0..3).filter(|axis| axes[*axis] && !modes.has_tool_length(*axis)) {
         let at = match is_g53 {
+            true if modes.incremental => None,
             true => match (block.value(COORDINATES[axis]), zero) {
                 // Without units it is zero.
                 (Some(value), Some(_)) => {
@@ -105,16 +106,23 @@ fn check(block: &Block<'_>) -> Result<(), ProgramError> {
     }
 }
 
-fn check_machine_coordinates(block: &Block<'_>, modes: &Modes) -> Result<(), ProgramError> {
+fn check_machine_coordinates(
+    block: &Block<'_>,
+    modes: &Modes,
+    is_fanuc: bool,
+) -> Result<(), ProgramError> {
     let (reason, remedy) = match modes.motion {
-        _ if modes.incremental => (
+        // Fanuc's controllers pass over it, and others of their kind go there: the place behind it is not known.
+        _ if modes.incremental && !is_fanuc => (
             "G53 stands beside increments (G91): some controllers refuse it, some ignore it",
-            "write G90 before G53",
+            "write G90 before G53 (the place behind it is taken for unknown with --expand and --dialect fanuc)",
         ),
         Some(Motion::Rapid) => return Ok(()),
+        // A rapid on Fanuc's controllers, whatever is in force (Operator's Manual B-64304EN, G53).
+        Some(Motion::Off) | None if is_fanuc => return Ok(()),
         Some(Motion::Off) | None => (
             "G53 without a motion word before it: what it does depends on the machine",
-            "write G53 G0",
+            "write G53 G0 (Fanuc and Haas: --expand with --dialect fanuc)",
         ),
         Some(_) => (
             "a feed in machine coordinates cannot be corrected for its place in the part",

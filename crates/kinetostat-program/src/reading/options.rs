@@ -102,6 +102,9 @@ pub struct ReadOptions {
     pub rotary: Option<Arc<RotaryAxes>>,
     /// Whose places X, Y and Z are while they stand at an angle.
     pub tool_centre_point: ToolCentrePoint,
+    /// The program was run once for Fanuc's controllers ([`crate::Dialect::Fanuc`]): canned cycles that only the controller can make,
+    /// one hole in a block over which the tool stands, stay as they are written, with a warning.
+    pub carries_cycles: bool,
     /// Numbers of the tools that the field of corrections knows, each with its length. `None` (the
     /// default) means one tool for the whole program: a second tool is warned of. With a list, a tool
     /// outside it is refused, and so is a tool change beside a motion.
@@ -124,6 +127,7 @@ impl Default for ReadOptions {
             other_axes: OtherAxes::Refused,
             rotary: None,
             tool_centre_point: ToolCentrePoint::ByCode,
+            carries_cycles: false,
             tools: None,
             tool_before_first: true,
         }

@@ -65,6 +65,11 @@ impl Places {
         (0..3).find_map(|axis| self.lost[axis].map(|(cause, line)| (axis, cause, line)))
     }
 
+    /// Axes that were known and are so no more, with the causes.
+    pub fn all_lost(&self) -> impl Iterator<Item = (usize, Cause)> + '_ {
+        (0..3).filter_map(|axis| self.lost[axis].map(|(cause, _)| (axis, cause)))
+    }
+
     /// Text of the reason for which a known axis became unknown; `None` if it never was known or still is.
     pub fn why_lost(&self, axis: usize) -> Option<String> {
         let (cause, line) = self.lost[axis]?;

@@ -7,10 +7,10 @@
 use std::ops::Range;
 
 use winnow::ascii::{digit0, digit1};
-use winnow::combinator::{alt, opt};
+use winnow::combinator::{alt, opt, peek};
 use winnow::prelude::*;
 use winnow::stream::LocatingSlice;
-use winnow::token::{any, one_of, take_till, take_while};
+use winnow::token::{any, one_of, take, take_till, take_while};
 
 use crate::text::line::tenths;
 
@@ -74,14 +74,76 @@ fn token(input: &mut Input<'_>) -> Result<Token, winnow::error::EmptyError> {
         blank.value(Token::Blank),
         word,
         letter.map(|letter| Token::Letter(letter.to_ascii_uppercase())),
-        (b'(', take_till(0.., b')'), opt(b')')).map(|(_, _, end)| Token::Parenthesis {
-            closed: end.is_some(),
-        }),
+        comment,
         (b';', take_till(0.., |_: u8| false)).value(Token::Semicolon),
         (b'"', take_till(0.., b'"'), b'"').value(Token::Quoted),
         any.map(Token::Other),
     ))
     .parse_next(input)
+}
+
+/// `( ... )`; one with others in it goes on to its own end, where what stands between cannot be read as words.
+fn comment(input: &mut Input<'_>) -> Result<Token, winnow::error::EmptyError> {
+    (peek(b'('), take_while_comment)
+        .map(|(_, text)| Token::Parenthesis {
+            closed: text.last() == Some(&b')'),
+        })
+        .parse_next(input)
+}
+
+fn take_while_comment<'i>(input: &mut Input<'i>) -> Result<&'i [u8], winnow::error::EmptyError> {
+    let length = comment_length(input);
+    take(length).parse_next(input)
+}
+
+/// Bytes of a comment from its `(` on: up to the first `)`, or to the end of the line.
+///
+/// `(hole at (0, 69) )` ends where its brackets do: a control that ends it at the first `)` stops at the last one. Between the two there
+/// must be no digit, variable or expression outside inner brackets, which such a control would run, but behind a word that none has.
+pub(crate) fn comment_length(text: &[u8]) -> usize {
+    let first = text.iter().position(|byte| *byte == b')');
+    let Some(first) = first.map(|at| at + 1) else {
+        return text.len();
+    };
+    let opened = text[..first].iter().filter(|byte| **byte == b'(').count();
+    let mut depth = opened - 1;
+    let is_said = begins_with_a_word(&text[first..]);
+    for (at, byte) in text.iter().enumerate().skip(first) {
+        match byte {
+            _ if depth == 0 => return at,
+            b'(' => depth += 1,
+            b')' => depth -= 1,
+            b'0'..=b'9' | b'#' | b'[' | b'<' | b'%' | b';' if depth == 1 && !is_said => {
+                return first;
+            }
+            _ => {}
+        }
+    }
+    match depth {
+        0 => text.len(),
+        _ => first,
+    }
+}
+
+/// True for two letters and more that are no statement of a macro: every control stops there.
+fn begins_with_a_word(text: &[u8]) -> bool {
+    let text = text.trim_ascii_start();
+    let letters = text.iter().take_while(|byte| byte.is_ascii_alphabetic());
+    let word = text[..letters.count()].to_ascii_uppercase();
+    const MACROS: [&[u8]; 8] = [
+        b"IF", b"GOTO", b"WHILE", b"DO", b"END", b"THEN", b"DPRNT", b"BPRNT",
+    ];
+    word.len() > 1 && !MACROS.contains(&word.as_slice())
+}
+
+/// True if a comment of the line goes on behind its first `)`.
+pub(crate) fn has_comment_within(line: &[u8]) -> bool {
+    let mut tokens: Vec<Spanned> = Vec::new();
+    tokens_of(line, &mut tokens);
+    tokens.iter().any(|one| {
+        let closings = || line[one.span.clone()].iter().filter(|byte| **byte == b')');
+        matches!(one.token, Token::Parenthesis { .. }) && closings().count() > 1
+    })
 }
 
 fn blank<'i>(input: &mut Input<'i>) -> Result<&'i [u8], winnow::error::EmptyError> {

@@ -29,7 +29,7 @@ fn a_refused_line_is_followed_as_far_as_it_is_understood() {
             "G1 X#<a> F100\nG91 G2 X20 Y0 I7\nG90 G1 X5 Y5\nG2 X15 Y5 I4",
             &[3, 6],
         ),
-        ("G28 Z0\nG1 Z-1 F100\nX5\nG92 X0", &[4]),
+        ("G28 Z0\nG2 X2 I1 F100\nG1 X5\nG92 X0", &[4]),
     ];
     for (text, wanted) in cases {
         let text = format!("G21 G90\nG0 X0 Y0 Z0\n{text}\n");

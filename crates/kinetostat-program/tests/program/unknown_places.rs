@@ -58,9 +58,35 @@ fn the_same_length_once_more_changes_nothing() {
         ("G43.1 Z5\nG43 H1", false),
     ] {
         let text = format!("G21 G90\nG43 H1\nG0 X0 Y0 Z5\n{again}\nG1 Z-1 F100\n");
-        let path = read(&text, &ReadOptions::default());
-        assert_eq!(path.is_ok(), same, "{text}");
+        let (_, path) = read(&text, &ReadOptions::default()).unwrap();
+        let known = path.moves.last().unwrap().known;
+        assert_eq!(known == Knowledge::Whole, same, "{text}");
+        let warned = path
+            .warnings
+            .iter()
+            .any(|one| one.text.contains("only its end is corrected"));
+        assert_eq!(warned, !same, "{text}");
     }
+    // Where the feed does not say where it ends, it cuts somewhere else.
+    assert!(
+        read(
+            "G21 G90\nG0 X0 Y0 Z5\nG43 H2\nG1 X5 F100\n",
+            &ReadOptions::default()
+        )
+        .is_err()
+    );
+}
+
+/// CAM systems write rapids as feeds: the tool stays at the machine's height until the program states it.
+#[test]
+fn a_feed_at_a_height_of_the_machine_is_carried() {
+    let (output, result) =
+        written("G21 G90\nG0 X0 Y0 Z5\nG53 G0 Z0\nG1 X30 Y20 F5000\nG0 G43 Z15 H1\nG1 Z-1 F100\n");
+    assert_eq!(
+        output,
+        "G21 G90\nG0 X0.2500 Y0 Z5.2500\nG53 G0 Z0\nG1 X30 Y20 F5000\nG0 G43 Z15.2500 X30.2500 H1\nG1 Z-0.7500 F100\n"
+    );
+    assert_eq!(warned(&result, "carried without a correction"), [4]);
 }
 
 #[test]
@@ -161,7 +187,7 @@ fn with_the_places_of_the_machine_a_cut_may_follow() {
     );
     // Of the third and fourth point, of letters alone, and with a tool's length nothing is known.
     for block in ["G30 P3 Z5", "G28 Z", "G43 H1 G0 Z5\nG28 Z5"] {
-        let text = format!("G21 G90\nG0 X0 Y0 Z5\n{block}\nG1 Z-1 F100\n");
+        let text = format!("G21 G90\nG0 X0 Y0 Z5\n{block}\nG2 X5 I2.5 F100\n");
         let error = read(&text, &reading).expect_err(block);
         assert!(
             error

@@ -101,7 +101,7 @@ fn of_tool(
     };
     diameters_mm.get(&tool).copied().ok_or((
         format!("the diameter of tool {tool} is not known here, and it decides where the tool goes"),
-        "give its diameter (--tool-diameter-mm, or tool_diameters_mm under [expand] in the job file), or write G41.1 and G42.1 with D, the diameter in the program",
+        "give its diameter (0 where the program states the way of the tool's centre; --tool-diameter-mm, or tool_diameters_mm under [expand] in the job file), or write G41.1 and G42.1 with D, the diameter in the program",
     ))
 }
 

@@ -1,7 +1,6 @@
 //! Blocks of plain words, behind all blocks so far.
 
 use crate::error::{ProgramError, excerpt};
-use crate::expanding::options::Dialect;
 use crate::expanding::radius::trouble::Trouble;
 use crate::expanding::run::runner::Runner;
 use crate::path::moves::MoveKind;
@@ -42,13 +41,6 @@ impl Runner<'_> {
         let mut tokens: Vec<Spanned> = Vec::new();
         tokens_of(text, &mut tokens);
         self.functions.note(&tokens);
-        let has = |wanted: u8, number: f64| {
-            tokens.iter().any(|one| {
-                matches!(one.token, Token::Word { letter, value, .. } if letter == wanted && value == number)
-            })
-        };
-        self.taps_rigidly |= has(b'M', 29.0) && self.options.dialect != Dialect::LinuxCnc;
-        self.taps_rigidly &= !has(b'G', 80.0);
         let is_f = |one: &Spanned| matches!(one.token, Token::Word { letter: b'F', .. });
         self.no_feed &= !tokens.iter().any(is_f);
         let last = self.flat.interpreter.last_move();

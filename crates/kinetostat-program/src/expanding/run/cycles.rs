@@ -6,6 +6,7 @@ use crate::expanding::run::runner::Runner;
 use crate::expanding::translate::block::MotionBlock;
 use crate::expanding::translate::cycle::cycle;
 use crate::expanding::translate::turns::turns;
+use crate::text::lex::{Spanned, Token, tokens_of};
 
 /// Meaning of a block without a code while a cycle is in force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,7 +19,86 @@ pub(crate) enum InCycle {
     Nothing,
 }
 
+/// M29 in force: the taps that follow are tied to the spindle (Fanuc).
+#[derive(Debug)]
+pub(crate) struct Rigid {
+    /// M29 with its S: no motion may stand between it and the tap.
+    pub text: String,
+    /// True if a tap has written it.
+    pub is_written: bool,
+}
+
+/// M29 and S of a block, and the rest of it; `None` where it has no M29.
+fn rigid_words(text: &[u8]) -> Option<[Vec<u8>; 2]> {
+    let mut tokens: Vec<Spanned> = Vec::new();
+    tokens_of(text, &mut tokens);
+    let [mut own, mut rest] = [Vec::new(), Vec::new()];
+    let mut is_there = false;
+    for one in &tokens {
+        let piece = &text[one.span.clone()];
+        match one.token {
+            Token::Word {
+                letter: b'M',
+                value: 29.0,
+                ..
+            } => {
+                is_there = true;
+                own.splice(0..0, *b"M29");
+            }
+            Token::Word { letter: b'S', .. } => own.extend([b" ", piece].concat()),
+            _ => rest.extend_from_slice(piece),
+        }
+    }
+    is_there.then_some([own, rest])
+}
+
 impl Runner<'_> {
+    /// Holds M29 back until a tap writes it; gives the rest of its block.
+    pub fn hold_rigid(&mut self, text: &[u8]) -> Option<Vec<u8>> {
+        if self.options.dialect == Dialect::LinuxCnc || !text.contains(&b'9') {
+            return None;
+        }
+        let [own, rest] = rigid_words(text)?;
+        self.rigid = Some(Rigid {
+            text: String::from_utf8_lossy(&own).into_owned(),
+            is_written: false,
+        });
+        Some(rest)
+    }
+
+    /// A block with G28 or G30 and both G90 and G91, with the last of these alone (Fanuc, Operator's Manual B-64304EN,
+    /// preparatory function).
+    pub fn last_distance(&self, text: &[u8]) -> Option<Vec<u8>> {
+        if self.options.dialect != Dialect::Fanuc || !text.windows(2).any(|two| two == b"91") {
+            return None;
+        }
+        let mut tokens: Vec<Spanned> = Vec::new();
+        tokens_of(text, &mut tokens);
+        let is =
+            |one: &&Spanned, codes: &[u32]| one.g_code().is_some_and(|code| codes.contains(&code));
+        let goes_home = tokens.iter().any(|one| is(&one, &[280, 300]));
+        let modes: Vec<&Spanned> = tokens.iter().filter(|one| is(one, &[900, 910])).collect();
+        match modes[..] {
+            [first, last] if goes_home && first.g_code() != last.g_code() => {
+                let mut made = text.to_vec();
+                made.splice(first.span.clone(), []);
+                Some(made)
+            }
+            _ => None,
+        }
+    }
+
+    /// G80 and other motions end it; what no tap has written stands before them.
+    pub fn end_rigid(&mut self, block: &MotionBlock) -> Result<(), ProgramError> {
+        if matches!(block.motion, None | Some(740 | 840)) {
+            return Ok(());
+        }
+        match self.rigid.take() {
+            Some(rigid) if !rigid.is_written => self.add(rigid.text.as_bytes()),
+            _ => Ok(()),
+        }
+    }
+
     /// Meaning of a block that names no motion while a cycle is in force.
     pub fn in_cycle(&self, block: &MotionBlock) -> Result<InCycle, ProgramError> {
         if block.wants_axes {
@@ -79,15 +159,27 @@ impl Runner<'_> {
             return Err(self.refuse(&reason, remedy));
         }
         self.add_rest(&block.before)?;
-        if self.taps_rigidly && matches!(code, 740 | 840) {
+        let is_fanuc = self.options.dialect == Dialect::Fanuc;
+        if self.rigid.is_some() && matches!(code, 740 | 840) && !is_fanuc {
             return Err(self.refuse(
                 "behind M29 the feed of the tap is tied to the turns of the spindle (rigid tapping): plain blocks have no words for it",
-                "take M29 out where the tap floats in its holder, or write the taps into a program of their own that is not expanded",
+                "take M29 out where the tap floats in its holder, or have the cycle left as it is written (--dialect fanuc)",
             ));
         }
-        let state = (self.state(), self.options.dialect);
+        let rigid = self.rigid.as_ref().map(|rigid| rigid.text.as_str());
+        let state = (self.state(), self.options.dialect, rigid);
         let made = cycle(code, block, self.cycle, state);
         let (texts, cycle) = made.map_err(|(reason, remedy)| self.refuse(&reason, remedy))?;
+        let stays = is_fanuc && cycle.is_the_controls(self.rigid.is_some());
+        if stays && self.coordinates.interpreter().is_some() {
+            return Err(self.refuse(
+                &format!("the cycle G{} stays as it is written, and the coordinates are shifted, scaled or turned", code / 10),
+                "end that before it (G52 X0 Y0 Z0, G50, G69), or write its moves as G0 and G1 blocks",
+            ));
+        }
+        if let Some(rigid) = &mut self.rigid {
+            rigid.is_written |= matches!(code, 740 | 840);
+        }
         for text in texts {
             self.add(text.as_bytes())?;
         }

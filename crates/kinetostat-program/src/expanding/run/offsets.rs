@@ -7,6 +7,7 @@ use crate::error::ProgramError;
 use crate::expanding::number::number;
 use crate::expanding::options::Dialect;
 use crate::expanding::run::runner::Runner;
+use crate::expanding::translate::block::G_WITHOUT_WORDS;
 use crate::reading::options::Units;
 use crate::text::lex::{Spanned, Token, tokens_of};
 
@@ -48,6 +49,41 @@ impl Words {
 }
 
 impl Runner<'_> {
+    /// Modes beside G52 (and G15, which ends polar coordinates), which hold before it; then G52 with its axes.
+    pub fn beside_shift(&self, text: &[u8]) -> Option<[Vec<u8>; 2]> {
+        if !text.contains(&b'2') {
+            return None;
+        }
+        let mut tokens: Vec<Spanned> = Vec::new();
+        tokens_of(text, &mut tokens);
+        let [mut modes, mut shift] = [Vec::new(), Vec::new()];
+        let (mut shifts, mut is_there) = (false, false);
+        for one in &tokens {
+            let to = match one.token {
+                Token::Word {
+                    letter: b'G',
+                    value,
+                    ..
+                } if value != 52.0 => {
+                    let is_polar = value == 15.0 && self.options.dialect != Dialect::LinuxCnc;
+                    if !is_polar && !G_WITHOUT_WORDS.contains(&value) {
+                        return None;
+                    }
+                    is_there = true;
+                    &mut modes
+                }
+                Token::Word { letter: b'G', .. } => {
+                    shifts = true;
+                    &mut shift
+                }
+                Token::Other(_) => return None,
+                _ => &mut shift,
+            };
+            to.extend_from_slice(&text[one.span.clone()]);
+        }
+        (shifts && is_there).then_some([modes, shift])
+    }
+
     /// The blocks in the place of one with G10 or G52; `None` if the block is another, or may stand as it is.
     pub fn offsets(&mut self, text: &[u8]) -> Result<Option<Vec<String>>, ProgramError> {
         if !text.contains(&b'1') && !text.contains(&b'5') {

@@ -8,6 +8,7 @@ use crate::expanding::expression::tree::{Expression, Parameter};
 use crate::expanding::flat::Flat;
 use crate::expanding::options::{Dialect, ExpandOptions};
 use crate::expanding::radius::stage::Radius;
+use crate::expanding::run::cycles::Rigid;
 use crate::expanding::run::frame::{Frame, Label, Locals, Opened};
 use crate::expanding::run::modal::Functions;
 use crate::expanding::run::parameters::{Seen, Shared, assign};
@@ -47,8 +48,8 @@ pub(crate) struct Runner<'o> {
     pub functions: Functions,
     /// M72 has put back the modes from before the first F.
     pub no_feed: bool,
-    /// M29 is in force: the next tap is tied to the spindle (Fanuc).
-    pub taps_rigidly: bool,
+    /// M29 in force.
+    pub rigid: Option<Rigid>,
     /// The clearance of pecks has been warned of.
     pub pecks_warned: bool,
 }
@@ -80,7 +81,7 @@ impl<'o> Runner<'o> {
             steps: 0,
             functions: Functions::default(),
             no_feed: false,
-            taps_rigidly: false,
+            rigid: None,
             pecks_warned: false,
         }
     }

@@ -16,6 +16,7 @@ use crate::expanding::translate::block::{MotionBlock, Polar};
 use crate::expanding::translate::cycle::is_cycle;
 use crate::expanding::translate::turns::counts_turns;
 use crate::reading::options::BlockDelete;
+use crate::text::lex::has_comment_within;
 
 /// Lines that are run for each flat block that is allowed: loops that only count are not endless.
 const LINES_PER_BLOCK: usize = 20;
@@ -190,9 +191,14 @@ impl Runner<'_> {
 
     /// A block of plain words, behind all blocks so far; cycles and polar words as moves.
     fn emit(&mut self, text: &[u8], polar: Polar) -> Result<Next, ProgramError> {
-        if let (Dialect::LinuxCnc, Some(joined)) =
-            (self.options.dialect, without_blanks_in_numbers(text))
-        {
+        let is_linuxcnc = self.options.dialect == Dialect::LinuxCnc;
+        if is_linuxcnc && has_comment_within(text) {
+            return Err(self.refuse(
+                "a comment stands within a comment: LinuxCNC stops there",
+                "take the inner brackets out",
+            ));
+        }
+        if let (true, Some(joined)) = (is_linuxcnc, without_blanks_in_numbers(text)) {
             return self.emit(&joined, polar);
         }
         if let Some(mut block) = CallBlock::of(text) {
@@ -215,6 +221,20 @@ impl Runner<'_> {
                 true => Ok(Next::Line),
                 false => self.emit(&saving.after, polar),
             };
+        }
+        if let Some(text) = self.last_distance(text) {
+            self.flat.warn_of_lines(self.flat.blocks() + 1, "G90 and G91 stand in one block: the last of them holds (Fanuc: of several codes of one group the last one is valid), for the point on the way of G28 or G30 as well");
+            return self.emit(&text, polar);
+        }
+        if let Some(rest) = self.hold_rigid(text) {
+            return match rest.trim_ascii().is_empty() && !polar.is_there() {
+                true => Ok(Next::Line),
+                false => self.emit(rest.trim_ascii_end(), polar),
+            };
+        }
+        if let Some([modes, shift]) = self.beside_shift(text) {
+            self.emit(&modes, Polar::default())?;
+            return self.emit(&shift, polar);
         }
         if let Some(texts) = self.offsets(text)? {
             for text in texts {
@@ -243,6 +263,7 @@ impl Runner<'_> {
             self.turns(&block)?;
             return self.after_block();
         }
+        self.end_rigid(&block)?;
         self.note_move(&block);
         let code = match (block.motion, self.cycle) {
             (Some(code), _) => Some(code).filter(|code| is_cycle(*code)),

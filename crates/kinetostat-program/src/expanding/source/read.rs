@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::expanding::expression::parse::{Cursor, Malformed};
 use crate::expanding::expression::tree::Expression;
 use crate::expanding::source::statement::{OLabel, Piece, SourceLine, Statement, Structure};
+use crate::text::lex::comment_length;
 use crate::text::line::first_line;
 
 /// A line that is no statement: what is wrong, at which byte of the file.
@@ -281,10 +282,7 @@ fn is_expression(cursor: &mut Cursor<'_>) -> bool {
 }
 
 fn skip_comment(cursor: &mut Cursor<'_>, text: &[u8]) {
-    let rest = &text[cursor.at()..];
-    let length = rest.iter().position(|byte| *byte == b')');
-    let end = length.map_or(text.len(), |length| cursor.at() + length + 1);
-    cursor.go_to(end);
+    cursor.go_to(cursor.at() + comment_length(&text[cursor.at()..]));
 }
 
 /// True if only blanks and comments are left.

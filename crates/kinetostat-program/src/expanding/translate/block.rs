@@ -9,7 +9,7 @@ use crate::text::line::tenths;
 const OF_MOTION: &[u8; 15] = b"XYZABCUVWIJKRPQ";
 
 /// Modes that take no words.
-const G_WITHOUT_WORDS: &[f64] = &[
+pub(crate) const G_WITHOUT_WORDS: &[f64] = &[
     17.0, 18.0, 19.0, 20.0, 21.0, 90.0, 91.0, 94.0, 95.0, 98.0, 99.0,
 ];
 

@@ -1,5 +1,6 @@
 //! Canned cycles: what of a cycle holds for the blocks that follow, and the places of its holes.
 
+use crate::expanding::number::number;
 use crate::expanding::options::Dialect;
 use crate::expanding::translate::block::MotionBlock;
 use crate::expanding::translate::holes::{Hole, Spindle};
@@ -27,6 +28,47 @@ pub(crate) struct Cycle {
     levels: [f64; 2],
 }
 
+/// G87 of Fanuc.
+const BACK_BORING: u32 = 870;
+
+impl Cycle {
+    /// True for a cycle of Fanuc's controllers that plain blocks do not make: a rigid tap, a fine boring whose way aside is a parameter of the
+    /// control, a back boring, a boring from which the operator draws the tool.
+    pub fn is_the_controls(&self, is_rigid: bool) -> bool {
+        match self.code {
+            740 | 840 => is_rigid,
+            760 => self.shift[0].is_none() && self.shift[1].is_none(),
+            code => matches!(code, BACK_BORING | 880),
+        }
+    }
+
+    /// The blocks of one hole under the tool, which stands at its level R (back boring: anywhere above it).
+    fn as_written(&self, rigid: Option<&str>, from_back: bool, to_level: bool) -> Vec<String> {
+        let level = if from_back { "G98" } else { "G99" };
+        let mut text = format!("{level} G{}", self.code / 10);
+        let lengths = [
+            (b'Z', Some(self.depth)),
+            (b'R', Some(self.retract)),
+            (b'Q', self.peck),
+        ];
+        let shift = [(b'I', self.shift[0]), (b'J', self.shift[1])];
+        for (letter, value) in lengths.into_iter().chain(shift) {
+            if let Some(value) = value {
+                let digits = number(value);
+                // Without a point it may count thousandths.
+                let point = if digits.contains('.') { "" } else { "." };
+                text.push_str(&format!(" {}{digits}{point}", char::from(letter)));
+            }
+        }
+        if let Some(dwell) = self.dwell {
+            text.push_str(&format!(" P{}", number(dwell)));
+        }
+        let end = if to_level { "G80 G99" } else { "G80 G98" };
+        let blocks = rigid.map(str::to_owned).into_iter();
+        blocks.chain([text, end.to_owned()]).collect()
+    }
+}
+
 fn wrong<T>(reason: impl Into<String>, remedy: &'static str) -> Result<T, Wrong> {
     Err((reason.into(), remedy))
 }
@@ -41,7 +83,7 @@ pub(crate) fn cycle(
     code: u32,
     block: &MotionBlock,
     before: Option<Cycle>,
-    (state, dialect): (&Interpreter<'_>, Dialect),
+    (state, dialect, rigid): (&Interpreter<'_>, Dialect, Option<&str>),
 ) -> Result<(Vec<String>, Cycle), Wrong> {
     let [first, second, normal] = state.plane_axes();
     let letters = [first, second, normal].map(|axis| b"XYZ"[axis]);
@@ -54,12 +96,6 @@ pub(crate) fn cycle(
         );
     };
     refuse_other_words(block, normal)?;
-    if code == 870 && dialect == Dialect::Fanuc {
-        return wrong(
-            "G87 bores from the back on Fanuc's controllers (its R lies below its depth), with a shift that a parameter of the control says: it is not followed",
-            "write its moves as G0 and G1 blocks",
-        );
-    }
     let incremental = place.incremental;
     let mut cycle = words_of(
         code,
@@ -69,8 +105,30 @@ pub(crate) fn cycle(
         dialect,
     )?;
     let same = before.filter(|cycle| cycle.code == code || dialect == Dialect::Fanuc);
-    let repeats = repeats_of(code, block, dialect)?;
-    cycle.levels = levels_of(&cycle, same, (block, letters[2]), dialect)?;
+    let repeats = repeats_of(block, dialect)?;
+    let is_carried = dialect == Dialect::Fanuc && cycle.is_the_controls(rigid.is_some());
+    let was_incremental = same.is_some_and(|one| one.incremental);
+    if is_carried && (incremental || was_incremental || normal != 2) {
+        return wrong(
+            format!(
+                "the cycle G{} stays as it is written, and its levels would have to be places along Z",
+                code / 10
+            ),
+            "write G90 and G17 before it, or its moves as G0 and G1 blocks",
+        );
+    }
+    let from_back = is_carried && code == BACK_BORING;
+    if from_back && state.retracts_to_level() == Some(true) {
+        return wrong(
+            "G87 bores from the back and goes back to its start: it has no return to the level R (G99)",
+            "write G98 before it",
+        );
+    }
+    cycle.levels = match from_back {
+        // It goes back to where it began.
+        true => [cycle.initial; 2],
+        false => levels_of(&cycle, same, (block, letters[2]), dialect)?,
+    };
     let [level, bottom] = cycle.levels;
     if dialect != Dialect::LinuxCnc && same.is_some_and(|one| one.incremental != incremental) {
         // Later holes keep the levels, in words of the current distance mode.
@@ -96,7 +154,8 @@ pub(crate) fn cycle(
             now = level;
         }
     }
-    let to_level = goes_to_level(state.retracts_to_level(), dialect);
+    let stated = state.retracts_to_level();
+    let to_level = goes_to_level(stated, dialect);
     if dialect == Dialect::Fanuc && starts_below && to_level == Some(false) {
         return wrong(
             "the cycle begins below its retract level (R), and with G98 it goes back down there behind each hole, and to the next one",
@@ -121,6 +180,11 @@ pub(crate) fn cycle(
             if clear > level {
                 texts.extend(place.go("G0", at(hole_at, level)));
             }
+        }
+        if is_carried {
+            texts.extend(cycle.as_written(rigid, from_back, stated == Some(true)));
+            texts.extend(place.go("G0", at(hole_at, clear)));
+            continue;
         }
         let hole = Hole {
             at: hole_at,
@@ -209,10 +273,9 @@ fn words_of(
 }
 
 /// Number of repeats of a cycle.
-fn repeats_of(code: u32, block: &MotionBlock, dialect: Dialect) -> Result<usize, Wrong> {
+fn repeats_of(block: &MotionBlock, dialect: Dialect) -> Result<usize, Wrong> {
     // Fanuc repeats by K (others of its kind by L), and K0 only keeps the words.
-    let of_fanuc = dialect == Dialect::Fanuc && !matches!(code, 760 | 870);
-    let k = block.value(b'K').filter(|_| of_fanuc);
+    let k = block.value(b'K').filter(|_| dialect == Dialect::Fanuc);
     let repeats = block.value(b'L').or(k).unwrap_or(1.0);
     let least = match dialect {
         Dialect::Fanuc => 0.0,

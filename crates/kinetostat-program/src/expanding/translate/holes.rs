@@ -193,13 +193,6 @@ impl Hole {
     ) -> Result<(), Wrong> {
         let [own, _] = spindle.turning(760)?;
         let [i, j, _] = self.shift;
-        if i.is_none() && j.is_none() {
-            return Err((
-                "which way the cycle G76 shifts the tool by Q is a parameter of the controller"
-                    .to_owned(),
-                "write the shift with I and J",
-            ));
-        }
         let aside = [self.at[0] + i.unwrap_or(0.0), self.at[1] + j.unwrap_or(0.0)];
         all.extend(go("G1", self.at, self.bottom));
         all.extend(dwell);

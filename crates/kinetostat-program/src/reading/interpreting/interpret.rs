@@ -57,6 +57,7 @@ impl Interpreter<'_> {
             self.modes.extra.set_extruder_mode(block.codes.extruder);
             return Ok(());
         }
+        self.refuse_cycle(block)?;
         refuse_dwell_with_motion(block)?;
         refuse_negative_dwell(block)?;
         let has_axis_words = COORDINATES
@@ -103,6 +104,8 @@ impl Interpreter<'_> {
                 Some(place) => self.go_to_machine_place(block, &place),
                 None => self.note_no_motion(block),
             }
+        } else if let Some(code) = block.codes.cycle {
+            self.carry_cycle(block, code)?;
         } else if block.codes.position_offset.is_some() {
             self.set_position_offset(block, has_axis_words)?;
         } else if has_axis_words || self.is_centre_only(block) || self.turns_alone(block) {

@@ -42,7 +42,8 @@ impl Interpreter<'_> {
             self.warn(block.line_number, "the program feeds before it has given an F: the speed is the machine's, and no F is written until the program gives one");
         }
 
-        if kind == MoveKind::Feed {
+        let lost_before = self.places.first_lost().filter(|_| kind == MoveKind::Feed);
+        if lost_before.is_some() && !self.may_feed_from_lost_place(block, motion) {
             self.refuse_cut_from_lost_place(block)?;
         }
         self.modes.use_units();
@@ -62,6 +63,12 @@ impl Interpreter<'_> {
             .turn_of_move(block, kind, (&angles, &self.modes), &mut self.places)?
             .map(|turn| with_circle(turn, circle));
         let lost = self.places.first_lost();
+        if let (Some((axis, ..)), None) = (lost_before, lost) {
+            self.repeated.note(block.line_number, &format!(
+                "where this feed starts along {} is not known (a tool length, G28, G30 or G53 changed it): only its end is corrected, and its way is in no length and no verdict",
+                char::from(COORDINATES[axis])
+            ));
+        }
         if let Some((axis, cause, line)) = lost {
             let text = match cause {
                 Cause::Rotary if !self.modes.tool_centre_point => format!(
@@ -96,6 +103,18 @@ impl Interpreter<'_> {
         self.rotary.refuse_turn_per_revolution(block, &motion)?;
         self.moves.push(motion);
         Ok(())
+    }
+
+    /// True for a straight feed that states all lost axes, or leaves them at a place of the machine: it is an approach.
+    fn may_feed_from_lost_place(&self, block: &Block<'_>, motion: Motion) -> bool {
+        let stated = |axis: usize| block.value(COORDINATES[axis]).is_some();
+        motion == Motion::Feed
+            && !self.modes.incremental
+            && self.places.all_lost().all(|(axis, cause)| match cause {
+                Cause::ToolLength => stated(axis),
+                Cause::Machine => true,
+                Cause::Rotary => false,
+            })
     }
 
     /// Refuses a cut from an unknown place: it lies elsewhere than the program says.

@@ -93,11 +93,6 @@ fn what_dialects_disagree_on_is_refused_with_both_readings() {
             ["thread", "boring"],
         ),
         (
-            "M3\nG76 X1 Z-1 R1 Q1\n",
-            Dialect::Fanuc,
-            ["parameter", "G76"],
-        ),
-        (
             "G76 X1 Z-1 R1 I1\n",
             Dialect::LinuxCnc,
             ["thread", "spindle"],
@@ -122,11 +117,6 @@ fn what_dialects_disagree_on_is_refused_with_both_readings() {
             "IF [#1 EQ #0] GOTO 1\n",
             Dialect::LinuxCnc,
             ["#0 is no parameter", ""],
-        ),
-        (
-            "G87 X1 Z-1 R1 I1 J1 K1\n",
-            Dialect::Fanuc,
-            ["parameter", "G87"],
         ),
     ] {
         let error = run(text, dialect).unwrap_err();
@@ -237,4 +227,53 @@ fn the_way_to_a_contour_is_that_of_the_controller_or_refused() {
         let linuxcnc = cut(contour, Dialect::LinuxCnc).unwrap();
         assert_eq!(fanuc.program.bytes(), linuxcnc.program.bytes());
     }
+}
+
+/// The modes hold before the shift, in which G15 ends polar coordinates.
+#[test]
+fn modes_beside_g52_and_both_distance_modes_beside_g28() {
+    for dialect in [Dialect::Fanuc, Dialect::Undecided] {
+        let made = run("G15 G52 X0 Y0\nG90 G52 X5.\nG1 X0.\n", dialect).unwrap();
+        assert_eq!(made, "G15\nG90\nG1 X5\n");
+        assert!(run("G52 X0 M8 G91\n", dialect).is_err());
+    }
+    let made = run("G90 G52 X5\nG1 X0\n", Dialect::LinuxCnc).unwrap();
+    assert_eq!(made, "G90\nG92 X-5\nG1 X0\n");
+    assert_eq!(
+        fanuc("G91 G28 X0 Y0 Z100. G90\nG0 X1.\n"),
+        " G28 X0 Y0 Z100. G90\nG0 X1.\n"
+    );
+    for dialect in [Dialect::LinuxCnc, Dialect::Undecided] {
+        let error = run("G91 G28 Z0 G90\n", dialect).unwrap_err();
+        assert!(
+            error.reason.contains("another code of its group"),
+            "{error}"
+        );
+    }
+    // Fanuc's controllers pass over G53 under G91: where the tool is then is not known.
+    let made = fanuc("G91\nG53 G0 Z0\nG90\nG0 X1.\n");
+    assert_eq!(made, "G91\nG53 G0 Z0\nG90\nG0 X1.\n");
+    assert_eq!(fanuc("G80\nG53 Z0.\n"), "G80\nG53 Z0.\n");
+    assert!(run("G80\nG53 Z0.\n", Dialect::LinuxCnc).is_err());
+}
+
+#[test]
+fn brackets_within_a_comment() {
+    let text = "( holes at (0, 69) to (100, 69) )\n(cut(s) at 0.286mm per cut )\nG0 X1 (a (b))\n";
+    for dialect in [Dialect::Fanuc, Dialect::Undecided] {
+        assert_eq!(run(text, dialect).unwrap(), text);
+    }
+    let error = run(text, Dialect::LinuxCnc).unwrap_err();
+    assert!(error.reason.contains("within a comment"), "{error}");
+    // What a control that ends it at the first bracket would run is no comment.
+    for text in [
+        "(a (b) G0 X5 )\n",
+        "(a (b) GOTO 5 )\n",
+        "(a (b) X[1] )\n",
+        "(a (b) c\n",
+        "(a) )\n",
+    ] {
+        assert!(run(text, Dialect::Fanuc).is_err(), "{text}");
+    }
+    assert_eq!(fanuc("(a ( b) G0 X5\n"), "(a ( b) G0 X5\n");
 }

@@ -1,9 +1,10 @@
 //! Cycles as Fanuc runs them: rigid taps, words without a place, G80 beside a move, a start below R, points of numbers.
 
 use kinetostat_program::{
-    Dialect, ExpandOptions, Expanded, MoveKind, NoSubprograms, Program, ReadOptions, expand,
-    interpret,
+    Dialect, ExpandOptions, Expanded, Knowledge, MoveKind, NoSubprograms, Program, ReadOptions,
+    Request, Unwatched, WriteOptions, expand, interpret, verify_written, write_corrected,
 };
+use nalgebra::Vector3;
 
 use super::fanuc::{BEGIN, fanuc, run};
 
@@ -15,17 +16,39 @@ fn warned(text: &str, dialect: Dialect) -> Vec<(usize, String)> {
     warnings.map(|one| (one.line, one.text)).collect()
 }
 
+/// No motion may stand between M29 and its tap; behind G80 the mode of the return is the program's again.
 #[test]
-fn a_rigid_tap_is_refused() {
-    for text in [
-        "G99 M3 S500\nM29 S500\nG84 X1. Z-3. R1. F500\n",
-        "G99 M3 S500\nG84 X1. Z-3. R1. F500 M29 S500\n",
-        "G99 M4 S500\nM29 S500\nG74 X1. Z-3. R1. F500\n",
+fn a_rigid_tap_stays_as_it_is_written() {
+    for (text, expected) in [
+        (
+            "G99 M3 S500\nM29 S500\nG84 X1. Z-3. R1. P0 F500\nX2.\nG80\nX3.\n",
+            "G99 M3 S500\nF500\nG0 X1\nG0 Z1\nM29 S500\nG99 G84 Z-3. R1. P0\nG80 G99\nG0 X2\nM29 S500\nG99 G84 Z-3. R1. P0\nG80 G99\nG80\nG0 X3.\n",
+        ),
+        (
+            "G98 M3 S500\nG95 G84 X1. Z-3.5 R1. F1.5 M29 S300\n",
+            "G98 M3 S500\nG95 F1.5\nG0 X1\nG0 Z1\nM29 S300\nG99 G84 Z-3.5 R1.\nG80 G98\nG0 Z15\n",
+        ),
+        (
+            "M29 S500\nG74 X1. Z-3. R1. F500\n",
+            "F500\nG0 X1\nG0 Z1\nM29 S500\nG99 G74 Z-3. R1.\nG80 G98\nG0 Z15\n",
+        ),
+        ("M29 S500\nG0 X1.\n", "M29 S500\nG0 X1.\n"),
     ] {
-        for dialect in [Dialect::Fanuc, Dialect::Undecided] {
-            let error = run(text, dialect).unwrap_err();
-            assert!(error.reason.contains("rigid tapping"), "{error}");
+        assert_eq!(fanuc(text), expected);
+        if text.contains("G84") || text.contains("G74") {
+            let error = run(text, Dialect::Undecided).unwrap_err();
+            assert!(
+                error.reason.contains("rigid tapping") || error.reason.contains("G98"),
+                "{error}"
+            );
         }
+    }
+    for (text, needle) in [
+        ("G98 M29 S5\nG91 G84 X1. Z-3. R-1. F5\n", "places along Z"),
+        ("G98 M29 S5\nG52 Z1.\nG84 X1. Z-3. R1. F5\n", "shifted"),
+    ] {
+        let error = run(text, Dialect::Fanuc).unwrap_err();
+        assert!(error.reason.contains(needle), "{error}");
     }
     // G80 ends it.
     let text = "G99 M3 S500\nM29 S500\nG80\nG84 X1. Z-3. R1. F500\n";
@@ -184,10 +207,66 @@ fn drilling_data_hold_for_the_next_cycle_until_g80() {
 }
 
 #[test]
-fn fanuc_bores_from_the_back_by_g87() {
-    let error = run("G98 M3 S500\nG87 X1. Z-3. R-8. Q1. F100\n", Dialect::Fanuc).unwrap_err();
+fn borings_that_only_the_control_makes_stay_as_they_are_written() {
+    let boring = |words: &str| fanuc(&format!("G98 M3 S500\n{words} F100\n"));
+    assert_eq!(
+        boring("G87 X1. Z-3. R-8. Q1."),
+        "G98 M3 S500\nF100\nG0 X1\nG98 G87 Z-3. R-8. Q1.\nG80 G98\n"
+    );
+    assert_eq!(
+        boring("G76 X1. Z-3. R2. Q0.1 P200"),
+        "G98 M3 S500\nF100\nG0 X1\nG0 Z2\nG99 G76 Z-3. R2. Q0.1 P200\nG80 G98\nG0 Z15\n"
+    );
+    assert_eq!(
+        boring("G88 X1. Z-3. R2."),
+        "G98 M3 S500\nF100\nG0 X1\nG0 Z2\nG99 G88 Z-3. R2.\nG80 G98\nG0 Z15\n"
+    );
+    let error = run("G99 M3 S5\nG87 X1. Z-3. R-8. F1\n", Dialect::Fanuc).unwrap_err();
     assert!(error.reason.contains("bores from the back"), "{error}");
-    assert!(!error.remedy.contains("correct R"), "{error}");
+    // Only in this form, and only for Fanuc: what is read as it stands is refused, as every canned cycle.
+    let text = "G21 G90\nG0 X0 Y0 Z5\nG99 G76 Z-3. R1. F100\nG80\n";
+    let mut reading = ReadOptions::default();
+    let read =
+        |text: &str, reading: &ReadOptions| interpret(&Program::read(text).unwrap(), reading);
+    let error = read(text, &reading).unwrap_err();
+    assert!(error.reason.contains("canned cycle"), "{error}");
+    reading.carries_cycles = true;
+    let path = read(text, &reading).unwrap();
+    assert_eq!(
+        (path.moves[1].kind, path.moves[1].known),
+        (MoveKind::Feed, Knowledge::Nothing)
+    );
+    assert_eq!(path.moves[1].end.z, 1.0);
+    assert!(
+        path.warnings
+            .iter()
+            .any(|one| one.line == 3 && one.text.contains("G76 stays as it is written"))
+    );
+    for other in ["G76", "G99 G76 X1.", "G98 G76", "G0 G99 G76", "G99 G76 G84"] {
+        let text = text.replace("G99 G76", other);
+        assert!(read(&text, &reading).is_err(), "{text}");
+    }
+}
+
+/// The tool goes to the corrected place over the hole, and behind the cycle it is at the level R.
+#[test]
+fn a_cycle_as_it_is_written_among_corrected_moves() {
+    let mut options = ExpandOptions::default();
+    options.dialect = Dialect::Fanuc;
+    let text = format!("{BEGIN}M29 S500\nG84 X9. Y8. Z-3. R1. F500\nG80\nG1 X20.\n");
+    let made = expand(text, &options, &NoSubprograms).unwrap();
+    options.reading.carries_cycles = true;
+    let mut writing = WriteOptions::default();
+    writing.header = None;
+    let field = |_: &Request| Ok(Vector3::new(0.25, 0.0, 0.5));
+    let path = interpret(&made.program, &options.reading).unwrap();
+    let written = write_corrected(&made.program, &path, &field, &writing, &Unwatched).unwrap();
+    verify_written(&made.program, &path, &written, &options.reading, &writing).unwrap();
+    let output = String::from_utf8(written.bytes).unwrap();
+    assert!(
+        output.ends_with("G0 X9.2500 Y8\nG0 Z1.5000\nM29 S500\nG99 G84 Z-3. R1.\nG80 G98\nG0 Z15.5000\nG80\nG1 X20.2500\n"),
+        "{output}"
+    );
 }
 
 /// Settings of the control and work coordinate systems have words of their own, which are none of the cycle.

@@ -78,7 +78,7 @@ pub const CODES_NOT_FOLLOWED: &[Refused] = &[
         "two blocks",
     ),
     (
-        "G21\nG0 X0 Y0 Z0\nG28 Z0\nX5 Y5\nG1 Z-1 F100",
+        "G21\nG0 X0 Y0 Z0\nG28 Z0\nX5 Y5\nG91 G1 X1 F100",
         5,
         "line 3 sent the tool to a place of the machine, so where the tool is along Z is not known here, and this block cuts",
         "a rapid (G0) and an absolute Z word",
@@ -90,7 +90,7 @@ pub const CODES_NOT_FOLLOWED: &[Refused] = &[
         "an absolute X word",
     ),
     (
-        "G21\nG0 X0 Y0 Z0\nG43.1 X2 Z5\nG0 Z5\nG1 X5 F100",
+        "G21\nG0 X0 Y0 Z0\nG43.1 X2 Z5\nG0 Z5\nG1 Y5 F100",
         5,
         "line 3 changed the tool length, so where the tool is along X",
         "an absolute X word",
@@ -129,7 +129,7 @@ pub const CODES_NOT_FOLLOWED: &[Refused] = &[
         "absolute Z word",
     ),
     (
-        "G21\nG0 X0 Y0 Z0\nG43 H1 G1 Z5 F1",
+        "G21\nG0 X0 Y0 Z0\nG43 H1 G1 X5 F1",
         3,
         "line 3 changed the tool length",
         "absolute Z word",
