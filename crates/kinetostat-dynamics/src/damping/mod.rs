@@ -1,6 +1,7 @@
 //! Damping, by name: each result says which it was.
 
 mod complex_modes;
+pub(crate) mod pairs;
 
 use nalgebra::DMatrix;
 

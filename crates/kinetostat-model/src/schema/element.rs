@@ -4,7 +4,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::schema::{Axis, JointKind, Knee, PassiveKind, Placement, RotorTable, Spring6};
+use crate::schema::knee::Knee;
+use crate::schema::{Axis, JointKind, PassiveKind, Placement, RotorTable, Spring6};
 
 /// One element of a chain.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

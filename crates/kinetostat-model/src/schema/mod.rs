@@ -8,19 +8,15 @@ mod document;
 mod elastic;
 mod element;
 mod joint;
+mod knee;
 pub(crate) mod load;
 mod placement;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-pub use document::{CarriesWord, RotaryAxisTable, RotaryWord};
 pub use document::{
-    ChainTable, Deviation, Document, LimbTable, MechanismTable, PlatformTable, SCHEMA_VERSION,
-    Workspace,
+    CarriesWord, ChainTable, ControllerAxisTable, ControllerCoupling, ControllerTable,
+    ControllerUnit, DampingTable, Deviation, Document, LimbTable, MechanismTable, PlatformTable,
+    RayleighTable, RotaryAxisTable, RotaryWord, RotorTable, SCHEMA_VERSION, Workspace,
 };
-pub use document::{ControllerAxisTable, ControllerCoupling, ControllerTable, ControllerUnit};
-pub use document::{DampingTable, RayleighTable, RotorTable};
 pub use elastic::{
     HollowBox, IBeam, Rectangle, Rigidities, Round, Section, ShearWord, Spring6, Stiffness, Tip,
     Tube, Values,
@@ -31,30 +27,9 @@ pub use element::{
     SpringElement,
 };
 pub use joint::{JointKind, PassiveKind};
+pub use knee::Knee;
 pub use load::{
     Anchor, ConstantTensionLoad, CounterweightLoad, GasSpringLoad, LoadTable, PlatformAxes,
     PlatformLoadTable, PlatformPoint, PlatformWrench, SpringLoad, WrenchAxes, WrenchLoad,
 };
 pub use placement::{Axis, AxisName, Placement};
-
-/// Bilinear spring: knee, the same in both senses, and the stiffness beyond it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Knee {
-    /// Deflection at which the stiffness changes, mm.
-    pub at_mm: Option<f64>,
-    /// Deflection at which the stiffness changes, m.
-    pub at_m: Option<f64>,
-    /// Deflection at which the stiffness changes, degrees.
-    pub at_deg: Option<f64>,
-    /// Deflection at which the stiffness changes, rad.
-    pub at_rad: Option<f64>,
-    /// Stiffness beyond, N/m.
-    pub then_n_per_m: Option<f64>,
-    /// Stiffness beyond, N/mm.
-    pub then_n_per_mm: Option<f64>,
-    /// Stiffness beyond, N m/rad.
-    pub then_n_m_per_rad: Option<f64>,
-    /// Stiffness beyond, N mm/rad.
-    pub then_n_mm_per_rad: Option<f64>,
-}

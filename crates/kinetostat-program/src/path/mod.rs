@@ -2,6 +2,7 @@
 //!
 //! Plain geometry in mm, part frame. Knows no text.
 
+mod area_of_turns;
 pub(crate) mod closed_circle;
 pub(crate) mod crossing;
 pub(crate) mod curve;
