@@ -9,7 +9,6 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::branches::{Branches, Place};
-use crate::cut::Cut;
 use crate::error::{ChatterError, ChatterErrorKind, Result, above};
 use crate::number::smaller;
 use crate::response::{ToolResponse, first_order};
@@ -65,14 +64,6 @@ impl Process {
         Ok(Self {
             matrix: -force * chip.transpose(),
         })
-    }
-
-    /// The tooth average of a cut whose teeth pass much faster than the tool vibrates: the factor is the depth, m.
-    #[must_use]
-    pub fn average(cut: &Cut) -> Self {
-        Self {
-            matrix: cut.mean_matrix(),
-        }
     }
 }
 

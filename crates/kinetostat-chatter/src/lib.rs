@@ -25,7 +25,7 @@ pub mod zeroth_order;
 pub use coupling::{Coupled, CoupledLimit, Process, coupled_limit, coupled_roots, two_axis_limit};
 pub use cut::{Arc, Coefficients, Cut, Linearised, Milled, MillingCut, TurningCut};
 pub use error::{ChatterError, ChatterErrorKind, Result};
-pub use forced::{PeriodicForce, SteadyCut, Vibration, VibrationHarmonic};
+pub use forced::{PeriodicForce, Vibration, VibrationHarmonic};
 pub use lobes::{LobeDiagram, LobePoint, LobeRequest};
 pub use measured::{
     Fit, FittedMode, MeasuredResponse, ModePair, Motion, Parameter, Scaled, ShapedMode,

@@ -5,7 +5,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::ends::null_space::null_space;
+use crate::ends::null_space;
 use crate::error::{Error, Result};
 use crate::linear::LinearDynamics;
 use crate::linear::places::Point;

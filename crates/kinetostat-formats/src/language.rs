@@ -8,19 +8,6 @@ const LOOKED_AT: usize = 1 << 16;
 /// Endings that files in G-code or of other kinds have, too.
 const SHARED: [&str; 7] = ["prg", "sys", "sysx", "dat", "sub", "cl", "h"];
 
-/// Endings of files of a language, in small letters, the usual one first.
-///
-/// ```
-/// use kinetostat_formats::{Language, endings_of};
-///
-/// assert_eq!(endings_of(Language::Siemens), ["mpf", "spf"]);
-/// assert!(Language::ALL.iter().all(|language| !endings_of(*language).is_empty()));
-/// ```
-#[must_use]
-pub fn endings_of(language: Language) -> &'static [&'static str] {
-    language.endings()
-}
-
 /// The language whose files have an ending.
 fn by_ending(ending: &str) -> Option<Language> {
     let mut all = Language::ALL.into_iter();

@@ -86,7 +86,7 @@ pub use heidenhain::table::HEIDENHAIN_STATEMENTS;
 pub use krl::reader::read_krl;
 pub use krl::system_frames::{KRL_CONFIG, krl_frames_of_config, krl_needs_config};
 pub use krl::table::KRL_STATEMENTS;
-pub use language::{endings_of, language_of, odd_program};
+pub use language::{language_of, odd_program};
 pub use ls::reader::read_ls;
 pub use ls::table::LS_STATEMENTS;
 pub use making::action::{Coolant, EventAction};
@@ -116,8 +116,7 @@ pub use model::stated_arm::StatedArm;
 pub use model::stated_value::StatedValue;
 pub use model::target::{Configuration, PoseTarget, Target};
 pub use options::{
-    CutterCompensation, ExactStops, ExternalAxes, LengthUnit, ReadOptions, UnknownTargets,
-    WriteOptions,
+    CutterCompensation, ExternalAxes, LengthUnit, ReadOptions, UnknownTargets, WriteOptions,
 };
 pub use path::all_faults::{ProgramFault, all_faults};
 pub use path::axis_turns::TurnAboutAxis;

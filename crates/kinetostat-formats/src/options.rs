@@ -121,17 +121,6 @@ impl ReadOptions {
     }
 }
 
-/// Exact stops within a motion that is divided into pieces, if it has an exact stop at its end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ExactStops {
-    /// At its end alone: the pieces before pass their ends (RAPID: the smallest zone `z0`, 0.3 mm; KRL: `C_DIS`, within the
-    /// distance in force; FANUC: `CNT100`, since the arm comes to rest at `CNT0`).
-    #[default]
-    AtEnd,
-    /// At the end of every piece: zones are copied as written.
-    AtEveryPiece,
-}
-
 /// Options with which a program is written.
 ///
 /// ```
@@ -148,8 +137,6 @@ pub struct WriteOptions {
     pub quaternion_decimals: usize,
     /// Minimum decimals of a changed angle in degrees, 5.
     pub angle_decimals: usize,
-    /// Exact stops of divided motions.
-    pub exact_stops: ExactStops,
     /// Limit of the bytes of a changed line, without its line ending, if the controller or its loader has one.
     pub max_line_bytes: Option<usize>,
 }
@@ -160,7 +147,6 @@ impl Default for WriteOptions {
             position_decimals: 3,
             quaternion_decimals: 7,
             angle_decimals: 5,
-            exact_stops: ExactStops::AtEnd,
             max_line_bytes: None,
         }
     }

@@ -46,7 +46,7 @@ pub use cut::engagement_source::EngagementSource;
 pub use cut::failure::CutFailure;
 pub use cut::finding::{CutFinding, CutFindingKind};
 pub use cut::limits::deeper_than_edges;
-pub use cut::measured::{ExpectedForce, MeasuredForces};
+pub use cut::measured::MeasuredForces;
 pub use cut::measured_report::{ActsOn, MeasuredAxes, MeasuredReport};
 pub use cut::origin::ForceOrigin;
 pub use cut::profile::ForceAlongPath;
@@ -66,8 +66,7 @@ pub use free_turn::turned_path::{TurnedPath, with_turns};
 pub use kinetostat::number;
 pub use limits::{Beyond, Limit, Limits};
 pub use load::along_path::LoadAlongPath;
-pub use load::law::{CornerLoad, CuttingLoad, LoadAxes, ProgramLoad};
-pub use load::law::{Tool, straight_tool};
+pub use load::law::{CornerLoad, CuttingLoad, LoadAxes, ProgramLoad, Tool, straight_tool};
 pub use load::ramp_findings::{LoadBegins, LoadRamp};
 pub use map::{
     Entry, EvaluationRoom, Evaluator, Grid, MAP_BLOCK, MapPlace, MapTask, Outcome, PlaceState,
@@ -110,13 +109,11 @@ pub use run::look_at_part::look_at_part;
 pub use run::merged::MergedRun;
 pub use run::movable::{MovableProgram, Reach};
 pub use run::places::wrenches_at;
-pub use run::preparation::OfWhole;
-pub use run::preparation::with_model_field;
+pub use run::preparation::{OfWhole, with_model_field};
 pub use run::refused_question::refused_question;
 pub use run::summary::feed_arcs;
 pub use table::{FieldCorrection, correct_by_field, wide_table};
-pub use task::{Bounds, ToolGiven};
-pub use task::{NoMotion, RunError, Task};
+pub use task::{Bounds, NoMotion, RunError, Task, ToolGiven};
 pub use verify::{
     Condition, ExtraCut, Matched, OtherCondition, RapidElsewhere, Turned, Uncut, Verified,
     verify_program,

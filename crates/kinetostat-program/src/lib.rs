@@ -58,8 +58,7 @@ mod text;
 mod writing;
 
 pub use along::foot::Foot;
-pub use along::in_order::WhyLeftOut;
-pub use along::in_order::{in_order, in_order_by};
+pub use along::in_order::{WhyLeftOut, in_order, in_order_by};
 pub use along::nominal::{FeedPiece, NoFeedMove, NominalPath, Pass};
 pub use checking::field::{Farthest, FieldCheck, verify_against_field};
 pub use checking::verifier::Verification;
@@ -80,17 +79,15 @@ pub use machine_program::{Gcode, MachineProgram};
 pub use parts::gcode_part::GcodePart;
 pub use parts::in_order::{PartsInOrder, PlaceInOrder, Standing};
 pub use parts::length::PartLength;
-pub use parts::survey::PartError;
-pub use parts::survey::Survey;
+pub use parts::survey::{PartError, Survey};
 pub use parts::windows::{Part, Parts};
 pub use parts::written_so_far::WrittenSoFar;
 pub use path::closed_circle::{NearlyClosed, angle_about, last_digit_mm};
 pub use path::curve::{Arc, Curve};
 pub use path::great_circle::{GreatCircle, OffCircle};
-pub use path::moves::PathPart;
-pub use path::moves::ToolChange;
 pub use path::moves::{
-    CoordinateWords, ExtraAxis, ExtraMode, Feed, FeedMode, Knowledge, Move, MoveKind, Path, Warning,
+    CoordinateWords, ExtraAxis, ExtraMode, Feed, FeedMode, Knowledge, Move, MoveKind, Path,
+    PathPart, ToolChange, Warning,
 };
 pub use path::pause::{Pause, PauseKind};
 pub use path::rotary::{Carries, RotaryAxes, RotaryAxis};
@@ -109,10 +106,7 @@ pub use writing::accounting::{Accounting, ShortBlocksOfLine};
 pub use writing::directed_moves::DIRECTION_DECIMALS;
 pub use writing::jump::Turn;
 pub use writing::options::{Arcs, Circles, WriteOptions};
-pub use writing::plan::PlannedArc;
-pub use writing::plan::{Plan, PlannedMove, PlannedPiece, WrittenEnd, WrittenMove};
+pub use writing::plan::{Plan, PlannedArc, PlannedMove, PlannedPiece, WrittenEnd, WrittenMove};
 pub use writing::write::write_corrected;
-pub use writing::written::WriterState;
-pub use writing::written::WrittenCircle;
-pub use writing::written::{Corrected, Piece};
+pub use writing::written::{Corrected, Piece, WriterState, WrittenCircle};
 pub use writing::written_arc::WrittenArc;

@@ -19,7 +19,7 @@ pub struct PeriodicForce {
 /// Maximum number of harmonics that are kept.
 const MOST: usize = 4096;
 
-pub(crate) fn checked_harmonics(harmonics: usize) -> Result<usize> {
+fn checked_harmonics(harmonics: usize) -> Result<usize> {
     match (1..=MOST).contains(&harmonics) {
         true => Ok(harmonics),
         false => Err(ChatterError::new(

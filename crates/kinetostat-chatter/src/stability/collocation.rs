@@ -58,25 +58,4 @@ impl Chebyshev {
             duration * (weight(i) + beginning * sign * end)
         })
     }
-
-    /// The matrix that takes values at these nodes to those at others: the polynomial through them.
-    pub(crate) fn to(&self, others: &[f64]) -> DMatrix<f64> {
-        let n = self.nodes.len();
-        let weight = |i: usize| {
-            // Weights of all nodes, times the distance from the beginning, which is no node here.
-            let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
-            let end = if i + 1 == n { 0.5 } else { 1.0 };
-            sign * end * self.nodes[i]
-        };
-        DMatrix::from_fn(others.len(), n, |row, i| {
-            let x = others[row];
-            match self.nodes.iter().position(|node| *node == x) {
-                Some(at) => f64::from(u8::from(at == i)),
-                None => {
-                    let sum: f64 = (0..n).map(|j| weight(j) / (x - self.nodes[j])).sum();
-                    weight(i) / (x - self.nodes[i]) / sum
-                }
-            }
-        })
-    }
 }

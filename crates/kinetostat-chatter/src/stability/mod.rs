@@ -28,5 +28,3 @@ pub use swinging::{LeftOut, Swinging};
 
 pub(crate) use collocation::Chebyshev;
 pub(crate) use eigenvalues::{by_qr, eigenvalues};
-pub(crate) use operator::Operator;
-pub(crate) use period::Period;

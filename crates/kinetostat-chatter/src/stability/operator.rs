@@ -42,27 +42,18 @@ impl<'a> Operator<'a> {
         2 * self.period.states.len() + self.period.differences()
     }
 
-    /// One period later, with a chip at each node that is `fed` thicker than by vibration (one number a difference, m); gives
-    /// depth-wise differences `d + fed` as well, which make the force.
-    pub(crate) fn driven(
-        &self,
-        before: &DVector<f64>,
-        fed: Option<&DVector<f64>>,
-    ) -> Result<(DVector<f64>, DVector<f64>)> {
+    /// Applies one period to a disturbance.
+    pub(crate) fn apply(&self, before: &DVector<f64>) -> Result<DVector<f64>> {
         let states = self.period.states.len();
         let mut after = before.clone();
-        let mut chips = DVector::zeros(before.len() - 2 * states);
         let mut at = 0;
         for (stretch, factored) in self.period.stretches.iter().zip(&self.factored) {
             let mut driven = DVector::zeros(2 * states);
             if let (Some(cutting), Some(factored)) = (&stretch.cutting, factored) {
                 let n = cutting.force.nrows();
                 let last = before.rows(2 * states + at, n);
-                // s = R u + a W (s - s_before + fed): solved for the chip s - s_before + fed.
+                // s = R u + a W (s - s_before): solved for the chip s - s_before.
                 let mut chip = &cutting.state * after.rows(0, 2 * states) - last;
-                if let Some(fed) = fed {
-                    chip += fed.rows(at, n);
-                }
                 if !factored.solve_mut(&mut chip) {
                     return Err(ChatterError::new(
                         ChatterErrorKind::NotConverged,
@@ -72,12 +63,9 @@ impl<'a> Operator<'a> {
                     ));
                 }
                 driven = &cutting.end * &chip * self.depth;
-                let mut now = last + &chip;
-                if let Some(fed) = fed {
-                    now -= fed.rows(at, n);
-                }
-                after.rows_mut(2 * states + at, n).copy_from(&now);
-                chips.rows_mut(at, n).copy_from(&chip);
+                after
+                    .rows_mut(2 * states + at, n)
+                    .copy_from(&(last + &chip));
                 at += n;
             }
             for (m, decay) in stretch.decay.iter().enumerate() {
@@ -86,12 +74,7 @@ impl<'a> Operator<'a> {
                 after[2 * m + 1] = decay.re * im + decay.im * re + driven[2 * m + 1];
             }
         }
-        Ok((after, chips))
-    }
-
-    /// Applies one period to a disturbance.
-    pub(crate) fn apply(&self, before: &DVector<f64>) -> Result<DVector<f64>> {
-        Ok(self.driven(before, None)?.0)
+        Ok(after)
     }
 
     /// Largest multiplier to a residual by its size, with its vector; `last` is the start vector of a nearby depth.

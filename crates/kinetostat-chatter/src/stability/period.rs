@@ -17,10 +17,6 @@ use crate::stability::states::State;
 /// A stretch of time without a tooth that comes or goes.
 #[derive(Clone, Debug)]
 pub(crate) struct Stretch {
-    /// Time at which it begins, from the beginning of the period, s.
-    pub(crate) begins: f64,
-    /// Duration, s.
-    pub(crate) duration: f64,
     /// Factor of each mode's state over the stretch, without force.
     pub(crate) decay: Vec<Complex64>,
     /// Response in the cut; `None` in air.
@@ -32,8 +28,6 @@ pub(crate) struct Stretch {
 pub(crate) struct Period {
     /// Length, s.
     pub(crate) delay: f64,
-    /// Turn of the spindle at which it begins, rad.
-    pub(crate) starts: f64,
     pub(crate) states: Vec<State>,
     pub(crate) stretches: Vec<Stretch>,
 }
@@ -67,17 +61,11 @@ impl Period {
                         Some(Cutting::new(response, cut, of, &states, fineness)?)
                     }
                 };
-                Ok(Stretch {
-                    begins,
-                    duration,
-                    decay,
-                    cutting,
-                })
+                Ok(Stretch { decay, cutting })
             })
             .collect::<Result<Vec<_>>>()?;
         Ok(Self {
             delay,
-            starts,
             states,
             stretches,
         })

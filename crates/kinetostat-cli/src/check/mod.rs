@@ -3,19 +3,19 @@
 //! It takes a model, a job, or a model with poses measured on the machine, and gives findings; it solves a model at
 //! home only.
 
-pub(crate) mod arguments;
 mod job;
 mod model;
 mod poses;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use crate::check::arguments::CheckArgs;
+use clap::Args;
+
 use crate::check::model::findings::findings;
 use crate::check::model::text::answer_text;
 use crate::files::file_kind::FileKind;
 use crate::files::input_files::InputFiles;
-use crate::options::vector;
+use crate::options::{EXIT_CODES, number, vector};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 
@@ -43,3 +43,42 @@ pub(crate) fn run(args: &CheckArgs) -> Answer<()> {
     let text = answer_text(&findings, &model, force.is_some());
     json::print_answer(&text, &findings, args.json)
 }
+
+/// What a model file or a job file says, in words
+///
+/// Of a model: platforms, limbs, actuators with units and limits, passive joints, springs, masses;
+/// mobility, stiffness at home, effect of deviations, stability under gravity; and everything that
+/// looks wrong. Of a job: its model, program, placement, load and outputs, and whether the ends of
+/// the program can be reached; the program is read, not run.
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_CODES, after_long_help = CHECK_HELP)]
+pub(crate) struct CheckArgs {
+    /// Preset, model file or job file
+    #[arg(value_name = "MODEL|JOB")]
+    pub(crate) model: String,
+    /// Load on the tool by which deflections are judged, N, base axes; 1 kN along each axis without it
+    #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true, value_parser = number)]
+    pub(crate) force: Option<Vec<f64>>,
+    /// Compare with poses jogged on the machine instead: a table (CSV) or TOML with joint values and
+    /// the measured pose of the tool
+    #[arg(long, value_name = "FILE")]
+    pub(crate) pose: Option<PathBuf>,
+    /// How far apart such poses may be, mm; 0.1 degrees for each millimetre
+    #[arg(long, value_name = "MM", default_value = "1", requires = "pose", allow_negative_numbers = true, value_parser = number)]
+    pub(crate) pose_tolerance_mm: f64,
+    /// Print the findings as JSON; the text goes to the standard error
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+const CHECK_HELP: &str = "\
+Examples:
+  kinetostat check orthoglide
+  kinetostat check my_robot.toml --force 0 0 -500
+  kinetostat check job.toml
+
+Exit codes:
+  0    answered
+  1    wrong input: a file, a number or an option; the message says which
+  2    no answer: not converged, or a point that cannot be reached
+  130  stopped with Ctrl-C; nothing was written";

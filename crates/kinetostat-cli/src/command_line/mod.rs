@@ -8,17 +8,17 @@ use clap::{Parser, Subcommand};
 
 use crate::assemble::arguments::AssembleArgs;
 use crate::chatter::arguments::ChatterArgs;
-use crate::check::arguments::CheckArgs;
+use crate::check::CheckArgs;
 use crate::compare::arguments::CompareArgs;
 use crate::compensate::arguments::CompensateArgs;
 use crate::convert::arguments::ConvertArgs;
 use crate::curve::arguments::CurveArgs;
 use crate::deflect::arguments::DeflectArgs;
-use crate::demo::arguments::DemoArgs;
-use crate::dialect::arguments::DialectArgs;
+use crate::demo::DemoArgs;
+use crate::dialect::DialectArgs;
 use crate::engagement::arguments::EngagementArgs;
 use crate::equilibria::arguments::EquilibriaArgs;
-use crate::expand::arguments::ExpandArgs;
+use crate::expand::ExpandArgs;
 use crate::force::arguments::ForceArgs;
 use crate::frf::arguments::FrfArgs;
 use crate::import::arguments::ImportArgs;
@@ -29,9 +29,9 @@ use crate::model::arguments::ModelArgs;
 use crate::modes::arguments::ModesArgs;
 use crate::options::EXIT_CODES;
 use crate::placing::arguments::PlacingArgs;
-use crate::reproduce::arguments::ReproduceArgs;
+use crate::reproduce::ReproduceArgs;
 use crate::shares::arguments::SharesArgs;
-use crate::shell::arguments::{CompletionsArgs, ManArgs};
+use crate::shell::{CompletionsArgs, ManArgs};
 use crate::stiffness::arguments::StiffnessArgs;
 use crate::tolerance::arguments::ToleranceArgs;
 use crate::verify::arguments::VerifyArgs;
@@ -164,7 +164,6 @@ mod tests {
     use std::ffi::OsString;
 
     use crate::options::{number, small, whole};
-    use {no_number, plain_numbers};
 
     use super::*;
 

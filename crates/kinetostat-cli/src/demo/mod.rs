@@ -3,19 +3,18 @@
 //! It takes a directory and writes a whole example into it: model, job, program, and what `compensate` makes of
 //! them.
 
-pub(crate) mod arguments;
-
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use kinetostat_model::preset_text;
 
-use crate::demo::arguments::DemoArgs;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::Existing;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
 use crate::job::setting::setting;
+use crate::options::{EXIT_CODES, whole};
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
@@ -185,4 +184,25 @@ fn next(out: &Path) -> String {
         name("report.html"),
         safe(&out.display().to_string()),
     )
+}
+
+/// Mill a circular groove on a bending machine: the first look
+///
+/// Writes the program, the compensated program, the report, the result and the points, and the
+/// model and job files that repeat the run.
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_CODES)]
+pub(crate) struct DemoArgs {
+    /// Directory for the files; it is made if it does not exist
+    #[arg(long, value_name = "DIR", default_value = "kinetostat-demo")]
+    pub(crate) out: PathBuf,
+    /// Overwrite files of the same names in it
+    #[arg(long)]
+    pub(crate) force_overwrite: bool,
+    /// Print the result as JSON; the text goes to the standard error
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Number of threads; all cores without it
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
+    pub(crate) threads: Option<usize>,
 }

@@ -2,15 +2,13 @@
 //!
 //! It takes the name of a language and prints its table; the tables themselves are those of the crates that read.
 
-pub(crate) mod arguments;
-mod languages;
-
-use kinetostat_formats::Treatment as OfStatement;
+use clap::{Args, Subcommand};
+use kinetostat_formats::{
+    Language as Format, MakeLanguage, StatementRow, Treatment as OfStatement,
+};
 use kinetostat_program::{CODES, MOMENTS, Moment, Placed, Treatment as OfCode};
 use serde::Serialize;
 
-use crate::dialect::arguments::{DialectArgs, DialectCommand};
-use crate::dialect::languages::{Language, Words, languages};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 use crate::ui::layout::{listed, wrapped};
@@ -236,4 +234,74 @@ fn piece_of(moment: &Moment) -> Option<&'static str> {
         Placed::Last => Some("last"),
         Placed::Refused => None,
     }
+}
+
+/// Source of a language's table of statements.
+#[derive(Clone, Copy)]
+pub(crate) enum Words {
+    /// Codes of G-code, with when they act.
+    Codes,
+    /// Statements of a robot's language.
+    Statements(&'static [StatementRow]),
+}
+
+/// A language of programs.
+pub(crate) struct Language {
+    /// Name in options.
+    pub(crate) name: &'static str,
+    pub(crate) title: &'static str,
+    pub(crate) endings: &'static [&'static str],
+    /// Description of the output.
+    pub(crate) written: &'static str,
+    /// Target language of conversions to it, if there are any.
+    pub(crate) made: Option<MakeLanguage>,
+    pub(crate) words: Words,
+}
+
+const GCODE: Language = Language {
+    name: "gcode",
+    title: "G-code as LinuxCNC and most controllers read it",
+    endings: &["ngc", "nc", "gcode", "tap", "..."],
+    written: "Written: numbers in place, further blocks behind the first; 4 decimals in mm (5 in inches) or as --decimals says; lines of at most 250 bytes. A code beside a motion that is divided goes where controllers act on it (see the book).",
+    made: Some(MakeLanguage::Gcode),
+    words: Words::Codes,
+};
+
+/// All of them.
+fn languages() -> impl Iterator<Item = Language> {
+    let others = Format::ALL.into_iter().map(|language| Language {
+        name: language.word(),
+        title: language.title(),
+        endings: language.endings(),
+        written: language.written(),
+        made: MakeLanguage::of(Some(language)),
+        words: Words::Statements(language.statements()),
+    });
+    std::iter::once(GCODE).chain(others)
+}
+
+/// What is done with every word of a language of programs: the tables that readers and writers are made from
+#[derive(Debug, Args)]
+#[command(arg_required_else_help = true, subcommand_required = true)]
+pub(crate) struct DialectArgs {
+    #[command(subcommand)]
+    pub(crate) what: DialectCommand,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum DialectCommand {
+    /// The languages that are read
+    List,
+    /// Every word of a language: followed, carried byte for byte, or refused and why
+    Show(ShowArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ShowArgs {
+    /// Name of a language, as `dialect list` has it
+    #[arg(value_name = "NAME")]
+    pub(crate) name: String,
+    /// Print the table as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }

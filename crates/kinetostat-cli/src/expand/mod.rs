@@ -2,16 +2,17 @@
 //!
 //! It takes a program, folders of subprograms and diameters of tools; it gives plain blocks with the lines that they came from.
 
-pub(crate) mod arguments;
+use std::path::PathBuf;
 
+use clap::Args;
 use kinetostat_formats::{FileForm, Language, SourceFile, language_of};
 use kinetostat_machining::number::counted;
 use nalgebra::Vector3;
 
-use crate::expand::arguments::ExpandArgs;
 use crate::files::input_files::{InputFiles, refuse_beyond_memory};
 use crate::files::outputs::{Existing, Outputs, written};
-use crate::job::expansion::arguments::NO_COMMENTS;
+use crate::job::arguments::ReadingArgs;
+use crate::job::expansion::arguments::{ExpansionArgs, NO_COMMENTS};
 use crate::job::expansion::flat::{Flattened, flattened};
 use crate::job::expansion::settings::{folders, settings};
 use crate::job::file_endings::{Written, refuse_other_ending};
@@ -22,7 +23,7 @@ use crate::job::robot::read_once::Reading;
 use crate::job::robot::read_program::{flat_text, notes_of};
 use crate::job::robot::settings::settings as robot_settings;
 use crate::job::robot::source::{RobotSource, slash_blocks};
-use crate::job::robot_arguments::RobotArgs;
+use crate::job::robot_arguments::{RobotArgs, StatedArgs};
 use crate::job::setting::line_count;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, wrapped};
@@ -154,3 +155,39 @@ fn summary(name: &str, done: &Flattened) -> String {
     }
     text
 }
+
+/// A program with subprograms, variables and cycles as plain blocks
+///
+/// Runs the program once and writes what it runs: subprograms, loops and branches as their blocks,
+/// expressions as numbers, canned cycles and polar words as moves, G41 and G42 as the way of the
+/// tool's centre. The moves are those of LinuxCNC. What is not followed is refused with its line.
+#[derive(Debug, Args)]
+#[command(after_long_help = HELP)]
+pub(crate) struct ExpandArgs {
+    /// Program in G-code, of SINUMERIK (.mpf) or Heidenhain (.h), in APT (.apt, .cls), KRL (.src) or RAPID (.mod)
+    #[arg(value_name = "PROGRAM")]
+    pub(crate) program: PathBuf,
+    /// File for the flat program; without it, it is printed
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) with: ExpansionArgs,
+    #[command(flatten)]
+    pub(crate) stated: StatedArgs,
+    /// Overwrite the output if it exists (never the input)
+    #[arg(long)]
+    pub(crate) force_overwrite: bool,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
+}
+
+const HELP: &str = "\
+Examples:
+  kinetostat expand part.ngc --out flat.ngc
+  kinetostat expand part.ngc --subprograms macros --tool-diameter-mm 1=6
+  kinetostat compensate job.toml --program part.ngc --expand
+      the same on the way to another command
+
+Exit codes:
+  0    answered
+  1    wrong input: a file, a number or an option; the message says which";

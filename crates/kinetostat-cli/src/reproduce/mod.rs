@@ -2,17 +2,17 @@
 //!
 //! It takes the name of a table, an equation or a figure, or none, and gives the printed and the computed figures.
 
-pub(crate) mod arguments;
-
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use clap::Args;
 use kinetostat_machining::number::{counted, without_zeros};
 use kinetostat_machining::{RunError, Watch};
 use kinetostat_reproduce::{Entry, IDS, Item, ReproduceError, Status, all, html, one};
 
 use crate::files::outputs::{Existing, Outputs};
-use crate::reproduce::arguments::ReproduceArgs;
+use crate::options::EXIT_CODES;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 use crate::ui::layout::{self, listed, wrapped};
@@ -230,4 +230,25 @@ fn summary(out: &mut String, entries: &[Entry], one: bool) {
         count("not reproduced"),
         count("without print")
     ));
+}
+
+/// The numbers of the COROUSSO report L1.1, computed again and set beside their print
+///
+/// Each table, each equation with a number in it and each figure of chapters 2 to 7: what is printed,
+/// what comes out, and whether they agree; where they do not, why.
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_CODES)]
+pub(crate) struct ReproduceArgs {
+    /// Which one, as in table-5.2, eq-3.34 or fig-5.7; all without it
+    #[arg(value_name = "ID")]
+    pub(crate) id: Option<String>,
+    /// Print the numbers as JSON; the text goes to the standard error
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Write a page with all numbers and the figures drawn
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    pub(crate) html: Option<PathBuf>,
+    /// Overwrite an existing file
+    #[arg(long, help_heading = "Outputs")]
+    pub(crate) force_overwrite: bool,
 }

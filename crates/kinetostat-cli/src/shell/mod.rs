@@ -2,12 +2,11 @@
 //!
 //! It takes the command line itself, from above, and gives files made of it.
 
-pub(crate) mod arguments;
+use std::path::{Path, PathBuf};
 
-use std::path::Path;
+use clap::Args;
 
 use crate::files::outputs::{Existing, Outputs, written};
-use crate::shell::arguments::{CompletionsArgs, ManArgs};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::screen::{self, Stream};
 
@@ -53,4 +52,22 @@ fn collect(command: &clap::Command, prefix: &str, all: &mut Vec<(String, clap::C
         all.push((name.clone(), sub.clone()));
         collect(sub, &name, all);
     }
+}
+
+/// Completions for a shell, to be saved where the shell looks for them
+#[derive(Debug, Args)]
+pub(crate) struct CompletionsArgs {
+    /// Shell that reads the completions
+    pub(crate) shell: clap_complete::Shell,
+}
+
+/// Manual pages
+#[derive(Debug, Args)]
+pub(crate) struct ManArgs {
+    /// Write one page per command into this directory instead of printing the first
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Overwrite pages that exist
+    #[arg(long, requires = "out")]
+    pub(crate) force_overwrite: bool,
 }

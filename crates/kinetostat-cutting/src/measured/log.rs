@@ -56,7 +56,6 @@ impl LoggedBy {
 /// assert_eq!(log.by(), LoggedBy::Time);
 /// assert_eq!((log.rows(), log.range()), (3, [0.0, 0.003]));
 /// assert_eq!(log.spacing(), 0.0015);
-/// assert!(!log.has_moments());
 /// let (force_n, moment_n_m) = log.at(0.002).unwrap();
 /// assert_eq!((force_n, moment_n_m), ([3.0, 2.0, 0.0], [0.0; 3]));
 /// assert_eq!(log.at(0.004), None);
@@ -128,12 +127,6 @@ impl ForceLog {
     #[must_use]
     pub fn rows(&self) -> usize {
         self.at.len()
-    }
-
-    /// True if it has moments in addition to forces.
-    #[must_use]
-    pub fn has_moments(&self) -> bool {
-        self.channels.len() == 6
     }
 
     /// Time or length of the first row and of the last, s or mm.

@@ -312,7 +312,6 @@ fn csv_is_read_in_any_order() {
     let text = "\u{feff}# kistler\n\nfz_n;mx_n_m;my_n_m;mz_n_m;along_mm; fx_n ;fy_n\r\n3;0.1;0.2;0.3;0;1;2\r\n# pause\r\n6;0;0;0;2.5;-4e0;5\r\n";
     let log = ForceLog::read("slot.csv", text).unwrap();
     assert_eq!(log.by(), LoggedBy::AlongPath);
-    assert!(log.has_moments());
     assert_eq!(log.at(0.0), Some(([1.0, 2.0, 3.0], [0.1, 0.2, 0.3])));
     assert_eq!(log.at(2.5), Some(([-4.0, 5.0, 6.0], [0.0; 3])));
     assert_eq!(log.at(-1e-9), None);

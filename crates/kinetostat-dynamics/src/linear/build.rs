@@ -2,11 +2,10 @@
 
 use nalgebra::DMatrix;
 
-use crate::ends::null_space::null_space;
+use crate::ends::null_space;
 use crate::error::{Error, Result};
-use crate::linear::LumpedLink;
 use crate::linear::limb::LimbShare;
-use crate::linear::{LinearDynamics, NamedCoordinate, Place, SpringPart};
+use crate::linear::{LinearDynamics, LumpedLink, NamedCoordinate, Place, SpringPart};
 use crate::mass::{MassKind, MassPart};
 
 /// Everything by all coordinates, before conditions are met.

@@ -9,7 +9,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use crate::ends::null_space::{null_space, null_space_below};
+use crate::ends::{null_space, null_space_below};
 
 /// Pivots of a matrix with ones on its diagonal below this are none.
 const PIVOT: f64 = 1e-13;

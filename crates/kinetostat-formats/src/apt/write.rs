@@ -197,7 +197,6 @@ impl Syntax for AptSyntax {
         motion: &Motion,
         literals: &PieceLiterals,
         _speed: Option<&[u8]>,
-        _options: &WriteOptions,
     ) -> Option<Vec<u8>> {
         let file = program.files.get(motion.file)?;
         let site = &motion.site;

@@ -13,7 +13,7 @@ use crate::ls::positions::Positions;
 use crate::model::motion::{Motion, Zone};
 use crate::model::program::RobotProgram;
 use crate::model::site::{Declaration, TargetSite};
-use crate::options::{ExactStops, WriteOptions};
+use crate::options::WriteOptions;
 use crate::text::edits::Edits;
 use crate::text::source::SourceFile;
 use crate::writing::motions::write_with;
@@ -178,7 +178,6 @@ impl Syntax for LsSyntax {
         motion: &Motion,
         literals: &PieceLiterals,
         speed: Option<&[u8]>,
-        options: &WriteOptions,
     ) -> Option<Vec<u8>> {
         let (file, site) = (program.files.get(motion.file)?, &motion.site);
         let TargetSite::Declared { name, .. } = &site.target else {
@@ -197,9 +196,7 @@ impl Syntax for LsSyntax {
         if let (Some(site), Some(speed)) = (&site.speed, speed) {
             edits.replace(site.span.clone(), speed);
         }
-        if let (Some(zone), Zone::Exact, ExactStops::AtEnd) =
-            (&site.zone, motion.zone, options.exact_stops)
-        {
+        if let (Some(zone), Zone::Exact) = (&site.zone, motion.zone) {
             // With CNT0 the arm would come to rest at every piece; where pieces meet the path hardly turns.
             edits.replace(zone.clone(), "CNT100");
         }

@@ -177,7 +177,6 @@ impl Syntax for PosesSyntax {
         motion: &Motion,
         literals: &PieceLiterals,
         speed: Option<&[u8]>,
-        _options: &WriteOptions,
     ) -> Option<Vec<u8>> {
         let literal = literals.end.as_slice();
         let (Some(speed), Some(site)) = (speed, &motion.site.speed) else {

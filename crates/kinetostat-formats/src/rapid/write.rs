@@ -7,7 +7,7 @@ use crate::interpreter::token::words_of;
 use crate::model::motion::{Motion, Zone};
 use crate::model::program::RobotProgram;
 use crate::model::site::ReplacedText;
-use crate::options::{ExactStops, WriteOptions};
+use crate::options::WriteOptions;
 use crate::rapid::lex::tokens_of;
 use crate::rapid::table::{MotionRow, motion_row};
 use crate::text::edits::Edits;
@@ -40,7 +40,6 @@ impl Syntax for RapidSyntax {
         motion: &Motion,
         literals: &PieceLiterals,
         speed: Option<&[u8]>,
-        options: &WriteOptions,
     ) -> Option<Vec<u8>> {
         let file = program.files.get(motion.file)?;
         let (word, _) = row_of(program, motion)?.straight?;
@@ -63,9 +62,7 @@ impl Syntax for RapidSyntax {
         if let (Some(site), Some(speed)) = (&site.speed, speed) {
             edits.replace(site.span.clone(), speed);
         }
-        if let (Some(zone), Zone::Exact, ExactStops::AtEnd) =
-            (&site.zone, motion.zone, options.exact_stops)
-        {
+        if let (Some(zone), Zone::Exact) = (&site.zone, motion.zone) {
             edits.replace(zone.clone(), "z0");
         }
         edits.applied_to_part(file.bytes(), &motion.span)

@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 
 use crate::interpreter::lexing::tokens_of;
 use crate::interpreter::token::words_of;
-use crate::model::motion::{Motion, Zone};
+use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 use crate::model::site::ReplacedText;
-use crate::options::{ExactStops, WriteOptions};
+use crate::options::WriteOptions;
 use crate::text::edits::Edits;
 use crate::text::number::short;
 use crate::text::source::SourceFile;
@@ -58,7 +58,6 @@ impl Syntax for UrScriptSyntax {
         motion: &Motion,
         literals: &PieceLiterals,
         speed: Option<&[u8]>,
-        options: &WriteOptions,
     ) -> Option<Vec<u8>> {
         let file = program.files.get(motion.file)?;
         let site = &motion.site;
@@ -71,14 +70,12 @@ impl Syntax for UrScriptSyntax {
         if let (Some(site), Some(speed)) = (&site.speed, speed) {
             edits.replace(site.span.clone(), speed);
         }
-        let passes = motion.zone != Zone::Exact || options.exact_stops == ExactStops::AtEnd;
         match &site.zone {
-            Some(zone) if passes => edits.replace(zone.clone(), PASSING),
-            None if passes => {
+            Some(zone) => edits.replace(zone.clone(), PASSING),
+            None => {
                 let close = motion.span.end - 1;
                 edits.replace(close..close, format!(", r={PASSING}"));
             }
-            _ => {}
         }
         edits.applied_to_part(file.bytes(), &motion.span)
     }

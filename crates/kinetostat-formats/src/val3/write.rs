@@ -44,7 +44,6 @@ impl Syntax for Val3Syntax {
         motion: &Motion,
         literals: &PieceLiterals,
         _: Option<&[u8]>,
-        _: &WriteOptions,
     ) -> Option<Vec<u8>> {
         let file = program.files.get(motion.file)?;
         let mut edits = Edits::default();

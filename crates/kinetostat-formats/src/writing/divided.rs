@@ -150,10 +150,7 @@ impl Writer<'_> {
             };
             literals.via = Some((span_of(site), self.literal_near(motion, site, &wanted)?));
         }
-        let (program, options) = (self.program, self.options);
-        let statement = self
-            .syntax
-            .piece(program, motion, &literals, speed, options);
+        let statement = self.syntax.piece(self.program, motion, &literals, speed);
         Ok(self.on_own_line(motion, statement.ok_or(NO_END)?))
     }
 

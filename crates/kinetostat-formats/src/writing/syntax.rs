@@ -67,7 +67,6 @@ pub(crate) trait Syntax {
         motion: &Motion,
         literals: &PieceLiterals,
         speed: Option<&[u8]>,
-        options: &WriteOptions,
     ) -> Option<Vec<u8>>;
 
     /// True where a program with loops and calls can be written flat.

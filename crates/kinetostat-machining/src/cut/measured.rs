@@ -18,20 +18,11 @@ use crate::watch::Watch;
 /// Moves between two looks at whether to stop.
 const MOVES_PER_LOOK: usize = 2000;
 
-/// Reference force for finding the shift of the measured one.
-#[derive(Clone, Copy, Debug)]
-pub enum ExpectedForce<'a> {
-    /// Force in feed moves, none in rapids.
-    InFeedMoves,
-    /// A computed force: knows where feed moves are in air.
-    Computed(&'a ForceAlongPath),
-}
-
 /// A log of forces and what is known of it.
 ///
 /// ```
 /// use kinetostat_cutting::{ForceLog, LoggedBy};
-/// use kinetostat_machining::{ActsOn, ExpectedForce, ForceOrigin, MeasuredAxes, MeasuredForces, Unwatched};
+/// use kinetostat_machining::{ActsOn, ForceOrigin, MeasuredAxes, MeasuredForces, Unwatched};
 /// use kinetostat_program::{Program, ReadOptions, interpret};
 ///
 /// // Two cuts of 4 and 2 s with a rapid of 1 s between them; a log that begins 1.5 s before the first.
@@ -45,7 +36,7 @@ pub enum ExpectedForce<'a> {
 /// let mut measured = MeasuredForces::new(log, ActsOn::Part);
 /// measured.axes = MeasuredAxes::Part;
 /// measured.rapid_mm_per_minute = Some(600.0);
-/// let forces = measured.along(&path, ExpectedForce::InFeedMoves, &Unwatched)?;
+/// let forces = measured.along(&path, &Unwatched)?;
 /// let report = forces.measured.as_ref().unwrap();
 /// assert!((report.shift_s.unwrap() - 1.5).abs() < 0.01);
 /// assert_eq!(forces.origin(), ForceOrigin::Measured);
@@ -108,12 +99,7 @@ impl MeasuredForces {
     /// # Errors
     /// A time of a move, or the speed of the spindle, that is stated nowhere, with its line; a log that cannot be conditioned or
     /// whose shift is not distinct ([`match_shift`]); a shift for a log along the path; one that leaves no cut in the log.
-    pub fn along(
-        &self,
-        path: &Path,
-        expected: ExpectedForce<'_>,
-        watch: &dyn Watch,
-    ) -> Result<ForceAlongPath, CutFailure> {
+    pub fn along(&self, path: &Path, watch: &dyn Watch) -> Result<ForceAlongPath, CutFailure> {
         let of_log = |error| CutFailure::Log {
             error: Box::new(error),
         };
@@ -128,9 +114,7 @@ impl MeasuredForces {
             .with_drift(self.drift)
             .with_outliers(self.outliers);
         let done = conditioning.apply(&self.log).map_err(of_log)?;
-        let (shift, matched) = self
-            .shift(&done.log, path, &clock, expected)
-            .map_err(of_log)?;
+        let (shift, matched) = self.shift(&done.log, path, &clock).map_err(of_log)?;
         let laid = Laid {
             log: &done.log,
             clock: &clock,
@@ -202,7 +186,6 @@ impl MeasuredForces {
         log: &ForceLog,
         path: &Path,
         clock: &Clock,
-        expected: ExpectedForce<'_>,
     ) -> kinetostat_cutting::Result<(f64, Option<ShiftMatch>)> {
         match (self.shift_s, log.by()) {
             (Some(shift), LoggedBy::Time) => Ok((shift, None)),
@@ -214,11 +197,8 @@ impl MeasuredForces {
             )),
             (None, LoggedBy::AlongPath) => Ok((0.0, None)),
             (None, LoggedBy::Time) => {
-                let points = match expected {
-                    ExpectedForce::InFeedMoves => clock.activity(path),
-                    ExpectedForce::Computed(computed) => computed_activity(computed, clock),
-                };
-                let found = match_shift(log, &Activity::new(points)?)?;
+                // Force in feed moves, none in rapids.
+                let found = match_shift(log, &Activity::new(clock.activity(path))?)?;
                 Ok((found.shift_s, Some(found)))
             }
         }
@@ -238,24 +218,6 @@ impl MeasuredForces {
             "a log of this program, and its shift",
         ))
     }
-}
-
-/// The size of a computed force over time.
-fn computed_activity(computed: &ForceAlongPath, clock: &Clock) -> Vec<[f64; 2]> {
-    let mut points = Vec::new();
-    for (i, [from, to]) in clock.spans.iter().enumerate() {
-        let stations = computed.stations(i);
-        if let (Some(first), Some(last)) = (stations.first(), stations.last()) {
-            let at = |share: f64, size: f64| [from + share * (to - from), size];
-            let size = |wrench: kinetostat::Wrench| wrench.force().norm();
-            points.push([*from, 0.0]);
-            points.push([*from, size(first.wrench)]);
-            points.extend(stations.iter().map(|s| at(s.share, size(s.wrench))));
-            points.push([*to, size(last.wrench)]);
-            points.push([*to, 0.0]);
-        }
-    }
-    points
 }
 
 /// Share of the largest force that is no force yet.

@@ -73,7 +73,7 @@ impl ForceAlongPath {
     ///
     /// ```
     /// use kinetostat_cutting::{ForceLog, LoggedBy};
-    /// use kinetostat_machining::{ActsOn, ExpectedForce, MeasuredForces, Unwatched};
+    /// use kinetostat_machining::{ActsOn, MeasuredForces, Unwatched};
     /// use kinetostat_program::{Program, ReadOptions, interpret};
     ///
     /// // A force against the feed that grows from 0 to 40 N over 40 mm.
@@ -82,7 +82,7 @@ impl ForceAlongPath {
     /// let log = ForceLog::new(LoggedBy::AlongPath, along, [vec![0.0, -40.0], vec![0.0; 2], vec![0.0; 2]], None)?;
     /// let mut measured = MeasuredForces::new(log, ActsOn::Tool);
     /// measured.smooth = Some(0.0);
-    /// let forces = measured.along(&path, ExpectedForce::InFeedMoves, &Unwatched)?;
+    /// let forces = measured.along(&path, &Unwatched)?;
     /// // The same way in two lines.
     /// let other = forces.on_parts(&[(0, [0.0, 1.0]), (1, [0.0, 0.25]), (1, [0.25, 1.0])]);
     /// assert!((other.wrench(1, 0.5).force().x + 5.0).abs() < 1e-9);
@@ -157,12 +157,6 @@ impl ForceAlongPath {
     pub fn wrench(&self, move_index: usize, share: f64) -> Wrench {
         let value = self.vertices.profile.at(move_index, share);
         value.map_or_else(Wrench::zero, |value| Wrench(value.into()))
-    }
-
-    /// Shares inside a move at which the load has another slope.
-    #[must_use]
-    pub fn breaks(&self, move_index: usize) -> Vec<f64> {
-        self.of_load().0.profile.breaks(move_index).collect()
     }
 
     /// The vertices of the load, and the axes of its wrenches.

@@ -90,15 +90,6 @@ impl Assumption {
         }
     }
 
-    /// An assumption that must be settled before the program is run.
-    #[must_use]
-    pub fn critical(kind: AssumptionKind, text: impl Into<String>) -> Self {
-        Self {
-            is_critical: true,
-            ..Self::new(kind, None, text)
-        }
-    }
-
     /// Rank of the assumption: critical ones first, unknown costs last.
     pub(crate) fn rank(&self) -> f64 {
         match (self.is_critical, self.up_to_um) {

@@ -1,14 +1,9 @@
 //! Measured forces laid along a program: logs are made here from forces that are known at every place.
 
-use std::sync::Arc;
-
-use kinetostat_cutting::{
-    DriftModel, ForceLog, Linear, LoggedBy, Shape, Stock, StockSettings, Tool,
-};
+use kinetostat_cutting::{DriftModel, ForceLog, LoggedBy};
 use kinetostat_machining::{
-    ActsOn, CutFailure, CutFindingKind, CutQuestion, CuttingLoad, CuttingTool, DwellUnit,
-    EngagementSource, ExpectedForce, ForceAlongPath, ForceChoice, LoadAlongPath, MeasuredAxes,
-    MeasuredForces, Placement, ProgramLoad, Unwatched,
+    ActsOn, CutFailure, CutFindingKind, CuttingLoad, DwellUnit, ForceAlongPath, LoadAlongPath,
+    MeasuredAxes, MeasuredForces, Placement, ProgramLoad, Unwatched,
 };
 use kinetostat_program::{MoveKind, Path, Program, ReadOptions, interpret};
 use kinetostat_testing::Worst;
@@ -101,16 +96,11 @@ fn measured() -> MeasuredForces {
 }
 
 fn along(measured: &MeasuredForces, path: &Path) -> ForceAlongPath {
-    measured
-        .along(path, ExpectedForce::InFeedMoves, &Unwatched)
-        .unwrap()
+    measured.along(path, &Unwatched).unwrap()
 }
 
 fn failure(measured: &MeasuredForces, path: &Path) -> CutFailure {
-    measured
-        .along(path, ExpectedForce::InFeedMoves, &Unwatched)
-        .map(drop)
-        .unwrap_err()
+    measured.along(path, &Unwatched).map(drop).unwrap_err()
 }
 
 fn load<'a>(forces: &'a ForceAlongPath, path: &'a Path) -> LoadAlongPath<'a> {
@@ -427,51 +417,4 @@ fn what_the_program_does_not_say_is_asked_for() {
             .to_string()
             .contains("no cut")
     );
-}
-
-/// A feed that begins and ends in air does not say when the cut begins; the force that is computed from a stock does.
-#[test]
-fn a_computed_force_finds_what_feeds_do_not() {
-    let path = path("G21 G90\nS6000 M3\nG0 X-30 Y0 Z-2\nG1 X60 F600\n");
-    let tool = Tool::new(Shape::Flat, 6.0, 2).unwrap();
-    let stock = Stock::block(
-        [0.0, -20.0, -10.0],
-        [40.0, 0.0, 0.0],
-        &StockSettings::for_tool(&tool),
-    );
-    let law = Linear::new([796.0, 168.0, 222.0], [27.7, 30.8, 1.4]).unwrap();
-    let computed = CutQuestion {
-        tools: vec![CuttingTool::new(tool, Arc::new(law))],
-        engagement: EngagementSource::Stock(Box::new(stock.unwrap())),
-        choice: ForceChoice::Mean,
-        rpm: None,
-        rotation: None,
-        spindle: None,
-    };
-    let computed = computed.along(&path, &Unwatched).unwrap();
-    // The block from x = 0 to 40 at 10 mm/s: the tool is in it from about 2.7 s to 7 s; its force is 1.7 times the computed one.
-    let at: Vec<f64> = (0..12_000).map(|i| f64::from(i) / RATE).collect();
-    let mut state = 5;
-    let force = |t: f64| {
-        let share = (t - SHIFT) / 9.0;
-        match (0.0..=1.0).contains(&share) {
-            true => 1.7 * computed.wrench(1, share).force(),
-            false => Vector3::zeros(),
-        }
-    };
-    let axes = [0, 1, 2].map(|axis| {
-        at.iter()
-            .map(|t| force(*t)[axis] + noise(&mut state))
-            .collect::<Vec<f64>>()
-    });
-    let log = ForceLog::new(LoggedBy::Time, at, axes, None).unwrap();
-    let mut measured = MeasuredForces::new(log, ActsOn::Tool);
-    measured.axes = MeasuredAxes::Feed;
-    let refused = failure(&measured, &path).to_string();
-    assert!(refused.contains("state the shift"), "{refused}");
-    let found = measured
-        .along(&path, ExpectedForce::Computed(&computed), &Unwatched)
-        .unwrap();
-    let shift = found.measured.as_ref().unwrap().shift_s.unwrap();
-    assert!((shift - SHIFT).abs() < 2.0 / RATE, "{shift}");
 }

@@ -7,7 +7,6 @@ use crate::number::MISSING;
 /// ```
 /// use kinetostat_report::Language;
 ///
-/// assert_eq!(Language::of_code("de"), Some(Language::German));
 /// assert_eq!(Language::German.code(), "de");
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -33,12 +32,6 @@ impl Language {
             Self::French => "fr",
             Self::German => "de",
         }
-    }
-
-    /// The language of a code of two letters.
-    #[must_use]
-    pub fn of_code(code: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|l| l.code() == code)
     }
 
     /// A figure as the report has it, with the decimal sign of the language: a point between two digits becomes a comma.

@@ -2,8 +2,8 @@
 
 use kinetostat_cutting::{ForceLog, LoggedBy};
 use kinetostat_machining::{
-    CutFailure, CutFinding, CutFindingKind, ExpectedForce, ForceAlongPath, MeasuredForces,
-    MeasuredReport, Placement, Warning, WarningCode, Watch,
+    CutFailure, CutFinding, CutFindingKind, ForceAlongPath, MeasuredForces, MeasuredReport,
+    Placement, Warning, WarningCode, Watch,
 };
 use kinetostat_program::Path as ToolPath;
 use serde_spanned::Spanned;
@@ -41,7 +41,7 @@ pub(crate) fn measured(
     path: &ToolPath,
     watch: &dyn Watch,
 ) -> Answer<ForceAlongPath> {
-    let along = setup.forces.along(path, ExpectedForce::InFeedMoves, watch);
+    let along = setup.forces.along(path, watch);
     along.map_err(|failure| match failure {
         CutFailure::Log { .. } => Failure::input(failure).within(&setup.name),
         _ => stopped_or_within(failure, setting),

@@ -13,7 +13,7 @@ use crate::krl::writing::stated::with_stated_ends;
 use crate::model::motion::{Motion, Zone};
 use crate::model::program::RobotProgram;
 use crate::model::site::ReplacedText;
-use crate::options::{ExactStops, WriteOptions};
+use crate::options::WriteOptions;
 use crate::text::edits::Edits;
 use crate::text::name::Name;
 use crate::text::source::SourceFile;
@@ -94,7 +94,6 @@ impl Syntax for KrlSyntax {
         motion: &Motion,
         literals: &PieceLiterals,
         speed: Option<&[u8]>,
-        options: &WriteOptions,
     ) -> Option<Vec<u8>> {
         let file = program.files.get(motion.file)?;
         let row = row_of(program, motion)?;
@@ -115,7 +114,7 @@ impl Syntax for KrlSyntax {
             }
         }
         edits.replace(site.target_span.clone(), literals.end.clone());
-        if (motion.zone, options.exact_stops) == (Zone::Exact, ExactStops::AtEnd) {
+        if motion.zone == Zone::Exact {
             let end = site.target_span.end;
             edits.replace(end..end, format!(" {}", row.pass));
         }

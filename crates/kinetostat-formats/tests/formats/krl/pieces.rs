@@ -25,10 +25,6 @@ fn pieces_stand_before_the_end_with_all_else_as_written() {
         \tSLIN {X 75.000,Y 25.000,Z 5,A 0,B 0,C 180,S 2,T 35} C_DIS\n\tSLIN XP2 C_DIS\n";
     assert!(text.contains(expected), "{text}");
     assert!(text.contains("XP1={X 100,Y 0,Z 5.030,"));
-    let mut options = WriteOptions::default();
-    options.exact_stops = ExactStops::AtEveryPiece;
-    let files = write(&program, &pieces[..2], &options).unwrap();
-    assert!(String::from_utf8_lossy(&files[0].1).contains("T 35}\n\tLIN XP1 ; groove"));
 }
 
 #[test]

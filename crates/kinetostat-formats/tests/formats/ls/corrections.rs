@@ -104,12 +104,6 @@ fn pieces_are_lines_and_positions_and_all_lines_are_numbered_again() {
             .len()
             <= 2
     );
-
-    let mut options = WriteOptions::default();
-    options.exact_stops = ExactStops::AtEveryPiece;
-    let files = write(&program, &pieces, &options).unwrap();
-    let output = String::from_utf8(files[0].1.clone()).unwrap();
-    assert!(output.contains("   2:L P[5] 20mm/sec FINE PTH    ;\n"));
 }
 
 #[test]

@@ -27,16 +27,6 @@ fn pieces_stand_before_the_end_with_all_else_as_written() {
         \tMoveL p1,v20,fine, tool0,\\WObj:=wobj0; ! groove";
     assert!(text.contains(expected), "{text}");
     assert!(text.contains("p1:=[[100,0,5.030]"));
-    let mut options = WriteOptions::default();
-    options.exact_stops = ExactStops::AtEveryPiece;
-    let files = write(&program, &pieces, &options).unwrap();
-    assert_eq!(
-        String::from_utf8(files[0].1.clone())
-            .unwrap()
-            .matches("fine")
-            .count(),
-        3
-    );
     // Read again they are three motions to those places.
     let again = super::program(&text);
     let places: Vec<f64> = again
