@@ -15,8 +15,8 @@ use nalgebra::{Complex, DMatrix};
 
 use crate::error::Result;
 use crate::linear::LinearDynamics;
-use crate::modes::eigenvalues::start;
 use crate::modes::quadratic::Quadratic;
+use crate::modes::quadratic::start;
 
 /// Pairs whose `w^2` differ by a smaller share are damped as one: near flutter their shapes are nearly the same.
 const CLOSE: f64 = 1e-5;

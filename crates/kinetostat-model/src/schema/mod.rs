@@ -11,11 +11,12 @@ mod joint;
 mod knee;
 pub(crate) mod load;
 mod placement;
+mod vibration;
 
 pub use document::{
     CarriesWord, ChainTable, ControllerAxisTable, ControllerCoupling, ControllerTable,
-    ControllerUnit, DampingTable, Deviation, Document, LimbTable, MechanismTable, PlatformTable,
-    RayleighTable, RotaryAxisTable, RotaryWord, RotorTable, SCHEMA_VERSION, Workspace,
+    ControllerUnit, Deviation, Document, LimbTable, MechanismTable, PlatformTable, RotaryAxisTable,
+    RotaryWord, SCHEMA_VERSION, Workspace,
 };
 pub use elastic::{
     HollowBox, IBeam, Rectangle, Rigidities, Round, Section, ShearWord, Spring6, Stiffness, Tip,
@@ -33,3 +34,4 @@ pub use load::{
     PlatformLoadTable, PlatformPoint, PlatformWrench, SpringLoad, WrenchAxes, WrenchLoad,
 };
 pub use placement::{Axis, AxisName, Placement};
+pub use vibration::{DampingTable, RayleighTable, RotorTable};

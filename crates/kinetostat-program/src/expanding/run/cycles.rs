@@ -2,7 +2,7 @@
 
 use crate::error::ProgramError;
 use crate::expanding::options::Dialect;
-use crate::expanding::run::runner::Runner;
+use crate::expanding::run::runner::{Rigid, Runner};
 use crate::expanding::translate::block::MotionBlock;
 use crate::expanding::translate::cycle::cycle;
 use crate::expanding::translate::turns::turns;
@@ -17,15 +17,6 @@ pub(crate) enum InCycle {
     Words,
     /// Other words.
     Nothing,
-}
-
-/// M29 in force: the taps that follow are tied to the spindle (Fanuc).
-#[derive(Debug)]
-pub(crate) struct Rigid {
-    /// M29 with its S: no motion may stand between it and the tap.
-    pub text: String,
-    /// True if a tap has written it.
-    pub is_written: bool,
 }
 
 /// M29 and S of a block, and the rest of it; `None` where it has no M29.

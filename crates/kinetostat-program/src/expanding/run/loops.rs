@@ -102,7 +102,7 @@ impl Runner<'_> {
                         if is_open {
                             self.frame_mut().loops.pop();
                         }
-                        self.skip(line, &label)?;
+                        self.skip_to_end(line, &label)?;
                     }
                 }
             }
@@ -119,7 +119,7 @@ impl Runner<'_> {
         // LinuxCNC rounds the number; one below one is none.
         let times = self.value(count)?.round();
         if times < 1.0 {
-            return self.skip(line, &label);
+            return self.skip_to_end(line, &label);
         }
         let times = times.min(f64::from(u32::MAX)) as u32;
         self.begin(line, label, LoopKind::Repeat(times - 1));
@@ -127,7 +127,7 @@ impl Runner<'_> {
     }
 
     /// Goes behind the end of the loop that stands on a line.
-    pub fn skip(&mut self, line: usize, label: &Label) -> Result<(), ProgramError> {
+    pub fn skip_to_end(&mut self, line: usize, label: &Label) -> Result<(), ProgramError> {
         let file = self.frame().file;
         let statement = &self.sources[file].lines[line].statement;
         let (end, what): (fn(&Structure) -> bool, _) = match statement {
@@ -184,7 +184,7 @@ impl Runner<'_> {
     pub fn leave(&mut self, label: &Label) -> Result<(), ProgramError> {
         let open = self.innermost(label)?;
         self.frame_mut().loops.pop();
-        self.skip(open.line, label)
+        self.skip_to_end(open.line, label)
     }
 
     pub fn go_on(&mut self, label: &Label) -> Result<(), ProgramError> {
@@ -194,7 +194,7 @@ impl Runner<'_> {
             return Ok(());
         }
         // To the line at the end, which decides.
-        self.skip(open.line, label)?;
+        self.skip_to_end(open.line, label)?;
         self.frame_mut().next -= 1;
         Ok(())
     }
