@@ -1,6 +1,6 @@
 //! Corrections that would turn the tool in motions in which it does not turn evenly: they are refused before anything is written.
 //!
-//! Reading refuses such motions where the program turns the tool ([`crate::path::turning_faults`]); what is written has to pass the
+//! Reading refuses such motions where the program turns the tool ([`crate::path`]); what is written has to pass the
 //! same question.
 
 use kinetostat_program::{Plan, PlannedMove, WriteError as PathWriteError};

@@ -1,6 +1,6 @@
 //! YAML as nodes with their bytes.
 //!
-//! The parser counts characters; it is given one character for each byte ([`crate::poses::characters`]), so that its places are bytes. All
+//! The parser counts characters; it is given one character for each byte ([`Characters`]), so that its places are bytes. All
 //! nodes of a file stand in one list, each before what it holds: lists of poses have millions of them.
 
 use std::ops::Range;
