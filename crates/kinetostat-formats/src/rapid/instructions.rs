@@ -106,9 +106,7 @@ impl Run<'_, '_> {
         match row.treatment {
             // The arm stands still, and the user says that nothing else matters.
             EXTERNAL if self.options.external_axes == ExternalAxes::Carried => {
-                if let Some(index) = self.here {
-                    self.motions[index].site.external_moved_behind = true;
-                }
+                self.moves_external_axes();
                 return Flow::Next;
             }
             Treatment::Refused { reason, remedy } => {
@@ -138,11 +136,19 @@ impl Run<'_, '_> {
         }
         match row.name {
             "ExitCycle" => return Flow::Ends,
+            "EOffsOff" => self.moves_external_axes(),
             "PDispOff" => self.own.displacement = None,
             "PDispSet" => self.displace(tokens, &arguments.ordered),
             _ => {}
         }
         Flow::Next
+    }
+
+    /// Where the external axes are from here on does not follow from the last motion.
+    fn moves_external_axes(&mut self) {
+        if let Some(index) = self.here {
+            self.motions[index].site.external_moved_behind = true;
+        }
     }
 
     /// `PDispSet frame`: the places of all motions behind it are in this frame of the work object.

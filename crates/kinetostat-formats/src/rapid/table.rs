@@ -37,7 +37,7 @@ const MOVED_FRAME: Treatment = Refused {
 };
 /// Treatment of an instruction that moves external axes while the arm does not move.
 pub(crate) const EXTERNAL: Treatment = Refused {
-    reason: "it moves external axes alone",
+    reason: "it moves external axes alone, or displaces them",
     remedy: "take it into a program of its own, or read with external axes carried",
 };
 
@@ -220,7 +220,7 @@ const OTHERS: &[Alike] = &[
         remedy: "take the event routine that steps back into a module of its own",
     }, INSTRUCTIONS, &["StepBwdPath"]),
     alike(SEARCHED, INSTRUCTIONS, &["SearchL", "SearchC", "SearchJ", "SearchExtJ"]),
-    alike(DISPLACED, INSTRUCTIONS, &["PDispOn", "EOffsOn", "EOffsSet"]),
+    alike(DISPLACED, INSTRUCTIONS, &["PDispOn"]),
     alike(AT_RUN_TIME, INSTRUCTIONS, &[
         "CorrCon", "CorrWrite", "CorrDiscon", "EGMRunJoint", "EGMRunPose", "EGMMoveL", "EGMMoveC",
         "SoftAct", "FCAct", "FCPress1LStart", "FCPressL", "FCPressC", "FCPressEnd",
@@ -231,5 +231,5 @@ const OTHERS: &[Alike] = &[
         "IndAMove", "IndCMove", "IndDMove", "IndRMove",
     ]),
     alike(MOVED_FRAME, TRACKING, &["WaitWObj", "DropWObj"]),
-    alike(EXTERNAL, INSTRUCTIONS, &["MoveExtJ"]),
+    alike(EXTERNAL, INSTRUCTIONS, &["MoveExtJ", "EOffsOn", "EOffsSet"]),
 ];

@@ -200,15 +200,22 @@ fn joint_motions_say_where_axes_are() {
     let bytes = compensated((&program, &options), wavy).unwrap();
     assert!(String::from_utf8(bytes).unwrap().contains("[350,9E9"));
 
-    let mut case = rapid("100", "350");
-    let second = case.text.rfind("MoveL").unwrap();
-    case.text.insert_str(second, "MoveExtJ j1,v10,fine;\n");
-    let (program, options) = read_case(&case);
-    let refused = compensated((&program, &options), wavy).unwrap_err();
-    assert!(
-        refused.contains("line 5: external axis eax_a may move"),
-        "{refused}"
-    );
+    for moves in [
+        "MoveExtJ j1,v10,fine",
+        "EOffsSet [100,0,0,0,0,0]",
+        "EOffsOn j1",
+        "EOffsOff",
+    ] {
+        let mut case = rapid("100", "350");
+        let second = case.text.rfind("MoveL").unwrap();
+        case.text.insert_str(second, &format!("{moves};\n"));
+        let (program, options) = read_case(&case);
+        let refused = compensated((&program, &options), wavy).unwrap_err();
+        assert!(
+            refused.contains("line 5: external axis eax_a may move"),
+            "{refused}"
+        );
+    }
 }
 
 /// On a circle the axes go by the length of the way on it; the places between the ends get those of halfway.

@@ -2,11 +2,12 @@
 
 use crate::error::ProgramError;
 use crate::expanding::options::Dialect;
-use crate::expanding::run::runner::{Rigid, Runner};
+use crate::expanding::run::rigid::Rigid;
+use crate::expanding::run::runner::Runner;
 use crate::expanding::translate::block::MotionBlock;
 use crate::expanding::translate::cycle::cycle;
 use crate::expanding::translate::turns::turns;
-use crate::text::lex::{Spanned, Token, tokens_of};
+use crate::text::lex::{Spanned, tokens_of};
 
 /// Meaning of a block without a code while a cycle is in force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,41 +20,14 @@ pub(crate) enum InCycle {
     Nothing,
 }
 
-/// M29 and S of a block, and the rest of it; `None` where it has no M29.
-fn rigid_words(text: &[u8]) -> Option<[Vec<u8>; 2]> {
-    let mut tokens: Vec<Spanned> = Vec::new();
-    tokens_of(text, &mut tokens);
-    let [mut own, mut rest] = [Vec::new(), Vec::new()];
-    let mut is_there = false;
-    for one in &tokens {
-        let piece = &text[one.span.clone()];
-        match one.token {
-            Token::Word {
-                letter: b'M',
-                value: 29.0,
-                ..
-            } => {
-                is_there = true;
-                own.splice(0..0, *b"M29");
-            }
-            Token::Word { letter: b'S', .. } => own.extend([b" ", piece].concat()),
-            _ => rest.extend_from_slice(piece),
-        }
-    }
-    is_there.then_some([own, rest])
-}
-
 impl Runner<'_> {
     /// Holds M29 back until a tap writes it; gives the rest of its block.
     pub fn hold_rigid(&mut self, text: &[u8]) -> Option<Vec<u8>> {
         if self.options.dialect == Dialect::LinuxCnc || !text.contains(&b'9') {
             return None;
         }
-        let [own, rest] = rigid_words(text)?;
-        self.rigid = Some(Rigid {
-            text: String::from_utf8_lossy(&own).into_owned(),
-            is_written: false,
-        });
+        let (rigid, rest) = Rigid::of(text)?;
+        self.rigid = Some(rigid);
         Some(rest)
     }
 

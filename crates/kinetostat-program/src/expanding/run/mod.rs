@@ -16,6 +16,7 @@ pub(crate) mod parameters;
 pub(crate) mod points;
 pub(crate) mod polar;
 pub(crate) mod refused_lines;
+pub(crate) mod rigid;
 pub(crate) mod runner;
 pub(crate) mod saves;
 pub(crate) mod source;

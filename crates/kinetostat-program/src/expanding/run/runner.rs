@@ -11,6 +11,7 @@ use crate::expanding::radius::stage::Radius;
 use crate::expanding::run::frame::{Frame, Label, Locals, Opened};
 use crate::expanding::run::modal::Functions;
 use crate::expanding::run::parameters::{Seen, Shared, assign};
+use crate::expanding::run::rigid::Rigid;
 use crate::expanding::run::source::{Source, Subprograms};
 use crate::expanding::source::statement::OLabel;
 use crate::expanding::translate::cycle::Cycle;
@@ -24,15 +25,6 @@ const DEEPEST: usize = 100;
 pub(crate) enum Next {
     Line,
     End,
-}
-
-/// M29 in force: the taps that follow are tied to the spindle (Fanuc).
-#[derive(Debug)]
-pub(crate) struct Rigid {
-    /// M29 with its S: no motion may stand between it and the tap.
-    pub text: String,
-    /// True if a tap has written it.
-    pub is_written: bool,
 }
 
 /// A program while it runs.

@@ -32,7 +32,7 @@ fn a_rigid_tap_stays_as_it_is_written() {
             "M29 S500\nG74 X1. Z-3. R1. F500\n",
             "F500\nG0 X1\nG0 Z1\nM29 S500\nG99 G74 Z-3. R1.\nG80 G98\nG0 Z15\n",
         ),
-        ("M29 S500\nG0 X1.\n", "M29 S500\nG0 X1.\n"),
+        ("/M29 S500\nG0 X1.\n", "/M29 S500\nG0 X1.\n"),
     ] {
         assert_eq!(fanuc(text), expected);
         if text.contains("G84") || text.contains("G74") {
