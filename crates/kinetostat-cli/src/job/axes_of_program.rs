@@ -3,8 +3,6 @@
 //! Its tool and its frames are asked for before the machine of the run is known; where its words turn rotary axes, it cannot be
 //! read without these.
 
-use kinetostat_formats::read;
-
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
@@ -15,7 +13,7 @@ use crate::job::setting::Setting;
 use crate::job::tools::tool;
 use crate::ui::failure::Answer;
 
-/// Gives a SINUMERIK or Heidenhain program whose words turn rotary axes those of the model; others stay as they are.
+/// Gives a SINUMERIK or Heidenhain program the rotary axes of the model; others stay as they are.
 pub(crate) fn give_axes(
     setting: &mut Setting,
     files: &InputFiles,
@@ -30,19 +28,7 @@ pub(crate) fn give_axes(
     }
     let (named, base) = model_named(job, flag_model)?;
     let (model, _) = files.model(&named, &base)?;
-    let letters: Vec<char> = (model.rotary_axes().iter())
-        .map(|axis| axis.letter)
-        .collect();
-    if letters.is_empty() {
-        return Ok(());
-    }
-    let mut reading = source.settings.reading.clone();
-    reading.rotary_axes = letters;
-    let as_read = |reading| read(source.language, source.files.clone(), reading);
-    // Faults of the program are reported by its own reader; words refused without the axes need them.
-    if as_read(&reading).is_ok_and(|program| !program.states_axis_angles())
-        && as_read(&source.settings.reading).is_ok()
-    {
+    if model.rotary_axes().is_empty() {
         return Ok(());
     }
     let (tool, _) = tool(job, flags)?;
