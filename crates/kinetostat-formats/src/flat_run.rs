@@ -60,6 +60,16 @@ impl Written {
             .extend((0..=further).map(|further| (file, line + further)));
     }
 
+    /// Adds a text of a line of a file, and of those behind it, where the last one ended.
+    pub(crate) fn part(&mut self, text: &[u8], (file, line): (usize, usize)) {
+        for (further, text) in text.split_inclusive(|byte| *byte == b'\n').enumerate() {
+            if self.bytes.last().is_none_or(|byte| *byte == b'\n') {
+                self.origins.push((file, line + further));
+            }
+            self.bytes.extend_from_slice(text);
+        }
+    }
+
     /// Adds a part of a file, by its index, with its own line ends.
     pub(crate) fn copy(&mut self, (file, index): (&SourceFile, usize), part: &Range<usize>) {
         let bytes = file.part(part);

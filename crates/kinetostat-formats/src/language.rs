@@ -21,6 +21,7 @@ fn by_ending(ending: &str) -> Option<Language> {
 ///
 /// assert!(odd_program("slot.mod", b"").unwrap().contains("`MODULE`"));
 /// assert!(odd_program("slot.txt", b"MODULE A\nENDMODULE\n").unwrap().contains(".mod"));
+/// assert!(odd_program("part.urp", &[0x1f, 0x8b]).unwrap().contains(".script"));
 /// assert_eq!(odd_program("part.nc", b"G21 G90\n"), None);
 /// ```
 #[must_use]
@@ -28,6 +29,13 @@ pub fn odd_program(name: &str, bytes: &[u8]) -> Option<String> {
     let ending = name
         .rsplit_once('.')
         .map(|(_, ending)| ending.to_ascii_lowercase());
+    let unread = Language::ALL.iter().find_map(|language| {
+        let mut all = language.unread_endings().iter();
+        all.find(|(own, _)| ending.as_deref() == Some(*own))
+    });
+    if let Some((_, what)) = unread {
+        return Some((*what).to_owned());
+    }
     let own = ending.filter(|ending| !SHARED.contains(&ending.as_str()));
     let known = own.and_then(|ending| by_ending(&ending));
     let held = known.and_then(|language| Some((language.held_word()?, language.name())));

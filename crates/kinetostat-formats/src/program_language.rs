@@ -8,7 +8,7 @@ use crate::file_form::FileForm;
 use crate::model::motion::Motion;
 use crate::model::orientation::OrientationText;
 use crate::model::parsed::Parsed;
-use crate::model::program::RobotProgram;
+use crate::model::program::{ACCELERATION, RobotProgram};
 use crate::model::stated_arm::StatedArm;
 use crate::model::target::Configuration;
 use crate::options::{ReadOptions, WriteOptions};
@@ -111,6 +111,11 @@ pub trait ProgramLanguage: Sync {
 
     /// Words by which a file with another ending is known to be of this language, each with the ending that it is to have.
     fn own_words(&self) -> &'static [(&'static str, &'static str)] {
+        &[]
+    }
+
+    /// Endings of files with its programs in another form, which is not read, each with what to give in their place.
+    fn unread_endings(&self) -> &'static [(&'static str, &'static str)] {
         &[]
     }
 
@@ -314,9 +319,9 @@ pub trait ProgramLanguage: Sync {
         line
     }
 
-    /// Words in capitals that set how motions run, in groups of which one is in force.
+    /// Words in capitals that set how motions run, in groups of which one is in force; where motions state it themselves, what a run says.
     fn modes(&self) -> &'static [&'static [&'static str]] {
-        &[]
+        &[&[ACCELERATION]]
     }
 
     /// True where members of such a setting are settings of their own.
@@ -331,6 +336,11 @@ pub trait ProgramLanguage: Sync {
 
     /// Signs in a statement that declares a place, a frame or a tool by its value.
     fn sign_of_declaration(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Law by which a motion of this word, in capitals, passes its places, where the language has several.
+    fn law_of_motion(&self, _word: &str) -> Option<&'static str> {
         None
     }
 

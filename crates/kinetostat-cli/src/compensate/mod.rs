@@ -16,7 +16,7 @@ use kinetostat_machining::merged;
 
 use crate::compensate::arguments::CompensateArgs;
 use crate::compensate::copy::{copy, rotary_of_copy};
-use crate::convert::for_run::in_other_language;
+use crate::convert::for_run::{in_other_language, machine_of_made};
 use crate::convert::targets::Named;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing};
@@ -222,12 +222,7 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
             let found = in_other_language(files, of, (setting, word, named), (&model, &machine))?;
             setting = found.setting;
             (turn, findings) = (found.turn, found.findings);
-            let mut frames = setting.robot_frames()?;
-            if let Some(frames) = &mut frames {
-                frames.converted = true;
-            }
-            let with = (frames.as_ref(), &mut setting.inputs);
-            machine = machine_setup(files, job, model_named, flags, with)?.0;
+            machine = machine_of_made(files, (job, model_named, flags), &mut setting)?;
         }
         None => refuse_turn_without_words(&setting)?,
     }

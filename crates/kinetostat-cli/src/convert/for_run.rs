@@ -219,13 +219,22 @@ pub(crate) fn refuse_unconvertible(
     let source = (setting, word, Named::default());
     let found = in_other_language(files, (job, &flags), source, (model, machine))?;
     let mut setting = found.setting;
+    machine_of_made(files, (job, None, &flags), &mut setting)?;
+    Ok(found.findings)
+}
+
+/// The machine of a made program, which brings frames of its own.
+pub(crate) fn machine_of_made(
+    files: &InputFiles,
+    (job, model_named, flags): (Option<&JobFile>, Option<&str>, &ProgramArgs),
+    setting: &mut Setting,
+) -> Answer<MachineSetup> {
     let mut frames = setting.robot_frames()?;
     if let Some(frames) = &mut frames {
         frames.converted = true;
     }
     let with = (frames.as_ref(), &mut setting.inputs);
-    machine_setup(files, job, None, &flags, with)?;
-    Ok(found.findings)
+    Ok(machine_setup(files, job, model_named, flags, with)?.0)
 }
 
 /// The made program in one file.

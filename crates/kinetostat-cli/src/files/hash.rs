@@ -16,6 +16,17 @@ pub(crate) fn sha256(bytes: &[u8]) -> String {
     hex(&Sha256::digest(bytes))
 }
 
+/// Hash of files: that of one, or of the hashes of all, which bytes that go from one file to the next change.
+pub(crate) fn sha256_of_all(files: &[&[u8]]) -> String {
+    match files {
+        [one] => sha256(one),
+        all => {
+            let each: Vec<String> = all.iter().map(|file| sha256(file)).collect();
+            sha256(each.concat().as_bytes())
+        }
+    }
+}
+
 /// A hash as it is written.
 pub(crate) fn hex(hash: &[u8]) -> String {
     hash.iter().map(|byte| format!("{byte:02x}")).collect()
@@ -32,5 +43,7 @@ mod tests {
             sha256(b"abc"),
             "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
         );
+        assert_eq!(sha256_of_all(&[b"abc"]), sha256(b"abc"));
+        assert_ne!(sha256_of_all(&[b"ab", b"c"]), sha256_of_all(&[b"a", b"bc"]));
     }
 }

@@ -1,11 +1,6 @@
 //! Model data for the first reading of a program, before the machine of the run is known.
 //!
-//! The rotary axes of the model for the first reading of a program in the language of a machine's control.
-//!
-//! Its tool and its frames are asked for before the machine of the run is known; where its words turn rotary axes, it cannot be
-//! read without these.
-
-use kinetostat_formats::read;
+//! A program in the language of a machine's control whose words turn rotary axes cannot be read without those of the model.
 
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::ProgramArgs;
@@ -28,7 +23,7 @@ pub(crate) fn give_of_model(
     give_axes(setting, files, model, flags)
 }
 
-/// Gives a SINUMERIK or Heidenhain program whose words turn rotary axes those of the model; others stay as they are.
+/// Gives a SINUMERIK or Heidenhain program the rotary axes of the model; others stay as they are.
 fn give_axes(
     setting: &mut Setting,
     files: &InputFiles,
@@ -43,19 +38,7 @@ fn give_axes(
     }
     let (named, base) = model_named(job, flag_model)?;
     let (model, _) = files.model(&named, &base)?;
-    let letters: Vec<char> = (model.rotary_axes().iter())
-        .map(|axis| axis.letter)
-        .collect();
-    if letters.is_empty() {
-        return Ok(());
-    }
-    let mut reading = source.settings.reading.clone();
-    reading.rotary_axes = letters;
-    let as_read = |reading| read(source.language, source.files.clone(), reading);
-    // Faults of the program are reported by its own reader; words refused without the axes need them.
-    if as_read(&reading).is_ok_and(|program| !program.states_axis_angles())
-        && as_read(&source.settings.reading).is_ok()
-    {
+    if model.rotary_axes().is_empty() {
         return Ok(());
     }
     let (tool, _) = tool(job, flags)?;

@@ -168,10 +168,11 @@ impl Setting {
     /// The rotary axes of the machine, so that their words are read.
     pub(crate) fn turned_by(&mut self, rotary: Option<Arc<RotaryAxes>>) {
         if let Some(robot) = &mut self.robot {
+            let is_other = rotary.is_some() && robot.settings.making.rotary != rotary;
             robot.settings.making.rotary.clone_from(&rotary);
             let axes = rotary.iter().flat_map(|rotary| &rotary.axes);
             robot.settings.reading.rotary_axes = axes.map(|axis| axis.letter).collect();
-            if rotary.is_some() {
+            if is_other {
                 robot.reading = Reading::new();
             }
         }

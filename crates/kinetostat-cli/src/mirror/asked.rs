@@ -4,7 +4,7 @@ use std::path::Path;
 
 use kinetostat_mirror::{MeasureSettings, MirrorState, NominalPath, Register, Stations};
 
-use crate::files::hash::sha256;
+use crate::files::hash::{sha256, sha256_of_all};
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::feature_lines::refuse_lines_beyond;
@@ -61,7 +61,7 @@ pub(crate) fn hash_of(setting: &Setting) -> String {
         return sha256(&setting.program);
     };
     let all: Vec<&[u8]> = robot.files.iter().map(|file| file.bytes()).collect();
-    sha256(&all.concat())
+    sha256_of_all(&all)
 }
 
 pub(crate) fn flags_of(args: &MirrorArgs, program: &Path) -> ProgramArgs {

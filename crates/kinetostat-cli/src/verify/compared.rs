@@ -228,7 +228,7 @@ fn elsewhere_placed(
         kind if moved.contains(text) => kind.fault().or(Some(FaultKind::Course)),
         // Words after the last motion, or the last cut, change none.
         Kind::Stop if of == 1 || mark.at >= both[0].path.moves.len() => None,
-        Kind::Unseen if of == 1 => None,
+        Kind::Unseen | Kind::Endless if of == 1 => None,
         Kind::Spindle if mark.at > cuts[of].last() => None,
         kind => kind.fault(),
     };

@@ -41,6 +41,8 @@ pub(crate) enum Kind {
     Unseen,
     /// Statements of robots behind which somebody has to start again.
     Stop,
+    /// Loops that nothing leaves, and programs that begin again.
+    Endless,
     /// Overrides of all motions.
     Override,
     /// Statements that name the spindle, by what they call or switch.
@@ -97,7 +99,7 @@ impl Kind {
             Self::Length | Self::Radius | Self::Tool | Self::Edge => Some(FaultKind::Tool),
             Self::Spindle => Some(FaultKind::Rotation),
             Self::PathMode | Self::Zone | Self::Options => Some(FaultKind::PathMode),
-            Self::Runs | Self::Stop | Self::Unseen => Some(FaultKind::Course),
+            Self::Runs | Self::Stop | Self::Unseen | Self::Endless => Some(FaultKind::Course),
             Self::Override => Some(FaultKind::Feed),
             Self::Configuration | Self::Optional | Self::Other => None,
         }
@@ -115,6 +117,7 @@ impl Kind {
             Self::PathMode | Self::Zone | Self::Options => OTHER_PATH_MODE,
             Self::Runs => ": these cuts may not be made, or more than once",
             Self::Stop => ": motions behind it may not be made",
+            Self::Endless => ": nothing leaves it, and the motions in it are made again and again",
             Self::Override => ": it changes how fast all motions run",
             Self::Configuration => ": the model stands as in the original",
             Self::Optional => {

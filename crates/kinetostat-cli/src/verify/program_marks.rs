@@ -114,6 +114,7 @@ impl<'r> Marks<'r> {
                 // APT has the spindle along the path.
                 EventKind::Spindle if program.language.spindle_is_in_path() => continue,
                 EventKind::Stop => Kind::Stop,
+                EventKind::Endless => Kind::Endless,
                 _ if OVERRIDES.iter().any(|word| text.starts_with(word)) => Kind::Override,
                 _ if statement.mode.is_some() => Kind::PathMode,
                 _ if text.contains("SPIND") => Kind::Spindle,

@@ -33,6 +33,19 @@ fn a_program_is_compensated_and_verified_and_frames_are_those_of_the_original() 
                 3,
                 "it is at (0, 0, 151) mm",
             ),
+            (
+                "a=1.2",
+                "a=2.5",
+                3,
+                "with ACCELERATION 2.5, the original with ACCELERATION 1.2",
+            ),
+            ("movel(", "movep(", 3, "with a process motion"),
+            (
+                "def part():",
+                "while True:\n  part()\nend\ndef part():",
+                3,
+                "A LOOP WITHOUT END at line",
+            ),
         ],
     );
 }

@@ -69,6 +69,25 @@ fn a_program_is_compensated_with_the_data_of_its_folder_and_verified() {
     let verify = ["verify", "compensated/part.pgx", "--job", "job.toml"];
     let verified = run(here, &verify).answered();
     assert!(verified.out.contains("VERIFIED"), "{verified:?}");
+    // Another description of motion, and a loop around it all.
+    let differs = |name: &str, from: [&str; 2], to: [&str; 2], words: &str| {
+        let name = format!("compensated/{name}");
+        let before = read(here, &name);
+        let changed = before.replace(from[0], to[0]).replace(from[1], to[1]);
+        put(&name, &changed);
+        let said = run(here, &verify);
+        let shown: Vec<&str> = said.out.split_whitespace().collect();
+        assert!(
+            said.code == 3 && shown.join(" ").contains(words),
+            "{said:?}"
+        );
+        put(&name, &before);
+    };
+    let slower = ["tmax=\"20\" accel=\"50\"", "\u{0}"];
+    differs("cell.dtx", ["tmax=\"20\"", "\u{0}"], slower, "ACCEL 50");
+    let again = ["begin\nwhile true", "\nendWhile\nend]]>"];
+    let around = ["begin", "\nend]]>"];
+    differs("part.pgx", around, again, "A LOOP WITHOUT END");
     // A loop whose runs need different corrections is written flat.
     let again = "  movej(pA,tMill,mCut)\n  for nI=0 to 1\n    movel(pB[nI],tMill,mCut)\n  endFor";
     put("part.pgx", &program(again));

@@ -16,11 +16,12 @@ DEF CUT()\n $VEL.CP=0.02\n LIN {X 0,Y 0,Z 0,A 0,B 0,C 180}\n LIN {X 120,Y 0,Z 0,
 LIN {X 120,Y 40,Z 0,A 0,B 0,C 180}\nEND\n";
 
 const RAPID: &str = "MODULE Part
+  CONST num nRamp:=50;
   PERS tooldata tMill:=[TRUE,[[0,0,150],[1,0,0,0]],[5,[0,0,50],[1,0,0,0],0,0,0]];
   PERS wobjdata wPart:=[FALSE,TRUE,\"\",[[1300,50,900],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
   PROC main()
     ConfL\\Off;
-    AccSet 50,50;
+    AccSet 50,nRamp;
     SingArea\\Off;
     MoveJ [[0,0,150],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,fine,tMill\\WObj:=wPart;
     MoveL [[0,0,30],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v200,fine,tMill\\WObj:=wPart;
@@ -50,7 +51,14 @@ fn order_settings_and_ways_are_compared_in_all_languages() {
     let off = "THE SPINDLE DOES NOT TURN AS IN THE ORIGINAL";
     let mode = "ANOTHER PATH MODE";
     let course = "ANOTHER COURSE OF THE PROGRAM";
-    let krl: [Change; 9] = [
+    let endless = "ANOTHER COURSE OF THE PROGRAM: A LOOP WITHOUT END at line";
+    let krl: [Change; 10] = [
+        (
+            "DEF part()\n",
+            "DEF again()\n LOOP\n part()\n ENDLOOP\nEND\nDEF part()\n",
+            3,
+            endless,
+        ),
         (
             " SPINDLE_ON()\n COOLING()\n CUT()\n",
             " COOLING()\n CUT()\n SPINDLE_ON()\n",
@@ -81,7 +89,7 @@ fn order_settings_and_ways_are_compared_in_all_languages() {
             course,
         ),
     ];
-    let rapid: [Change; 6] = [
+    let rapid: [Change; 8] = [
         (
             "SpindleOn 12000;\n    Cut;",
             "Cut;\n    SpindleOn 12000;",
@@ -89,7 +97,19 @@ fn order_settings_and_ways_are_compared_in_all_languages() {
             off,
         ),
         ("ConfL\\Off", "ConfL\\On", 3, mode),
-        ("AccSet 50,50", "AccSet 90,90", 3, "with ACCSET 90,90"),
+        ("AccSet 50,nRamp", "AccSet 90,90", 3, "with ACCSET 90,90"),
+        (
+            "nRamp:=50",
+            "nRamp:=40",
+            3,
+            "with ACCSET 50,40, the original with ACCSET 50,50",
+        ),
+        (
+            "PROC main()",
+            "PROC main()\n WHILE TRUE DO\n Again;\n ENDWHILE\n ENDPROC\n PROC Again()",
+            3,
+            endless,
+        ),
         ("SingArea\\Off;", "", 3, "SINGAREA\\OFF"),
         ("MoveL [[120.", "MoveL\\Conc,[[120.", 3, "\\CONC"),
         ("MoveJ ", "MoveL ", 0, "goes on a straight line"),
@@ -115,7 +135,8 @@ fn order_settings_and_ways_are_compared_in_all_languages() {
         ("M9\n", "", 0, "M9 at line"),
         ("M3\nM8\n", "M8\n", 3, off),
     ];
-    let gcode: [Change; 3] = [
+    let gcode: [Change; 4] = [
+        ("M30", "M99", 3, "M99 at line"),
         ("M8\n", "", 0, "M8 at line 4 of the original"),
         ("G0 X0", "G1 X0", 0, "rapids run behind line"),
         ("M3\n", "", 3, off),

@@ -112,6 +112,7 @@ fn words_of_robots_are_faults_or_named() {
         &[
             ("$VEL.CP=0.02", "$VEL.CP=0.1", 3, "ANOTHER FEED"),
             ("$VEL.CP=0.02", "$VEL.CP=0.04", 3, "ANOTHER FEED"),
+            ("LIN {X 120.", "SLIN {X 120.", 3, "with a spline motion"),
             (" $OUT[3]=TRUE\n", "", 0, "$OUT[3]=TRUE at line 5 of the"),
             (
                 " $OUT[3]=TRUE\n",

@@ -44,11 +44,14 @@ pub(crate) struct Facts {
     pub name: &'static str,
     pub title: &'static str,
     pub endings: &'static [&'static str],
+    pub unread_endings: &'static [(&'static str, &'static str)],
     pub comment: &'static str,
     pub statements: &'static [StatementRow],
     pub written: &'static str,
     pub held_word: &'static str,
     pub order_words: &'static [&'static str],
+    /// Words of motions in capitals, and the law of each group.
+    pub laws: &'static [(&'static [&'static str], &'static str)],
     pub syntax: &'static (dyn Syntax + Sync),
 }
 
@@ -94,6 +97,14 @@ impl<D: BlockDialect> ProgramLanguage for BlockLanguage<D> {
 
     fn comment_behind_statement(&self) -> Option<&'static str> {
         Some(D::FACTS.comment)
+    }
+
+    fn unread_endings(&self) -> &'static [(&'static str, &'static str)] {
+        D::FACTS.unread_endings
+    }
+
+    fn law_of_motion(&self, word: &str) -> Option<&'static str> {
+        (D::FACTS.laws.iter()).find_map(|(own, law)| own.contains(&word).then_some(*law))
     }
 
     fn parse(&self, files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {

@@ -9,9 +9,10 @@ use crate::interpreter::operation::same;
 use crate::interpreter::passing::SET_IT;
 use crate::interpreter::run::{Called, DEEPEST, Dialect, Place, Root, Run, Slot};
 use crate::interpreter::symbols::Scope;
-use crate::interpreter::token::{Kind, Token, TokenFile};
+use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::{Choice, LoopKind, Statement};
 use crate::interpreter::value::Datum;
+use crate::model::program::ENDLESS;
 use crate::text::name::Name;
 
 /// Limit of repeated statements of a run: in loops, and in routines that others call.
@@ -193,8 +194,8 @@ impl<D: Dialect> Run<'_, '_, D> {
                 self.in_loops += 1;
                 let flow = match kind {
                     LoopKind::Counting => self.count(header, block),
-                    LoopKind::While => self.repeat(header, block),
-                    LoopKind::Until => self.repeat_until(header, block),
+                    LoopKind::While => self.repeat(header, block, false),
+                    LoopKind::Until => self.repeat(header, block, true),
                     LoopKind::Endless => self.repeat_for_ever(header, block),
                 };
                 self.in_loops -= 1;
@@ -289,7 +290,7 @@ impl<D: Dialect> Run<'_, '_, D> {
         for (index, case) in cases.iter().enumerate() {
             let is_default = case.is_empty();
             let mut is_it = Some(is_default);
-            for own in ranges(file.tokens.as_slice(), case) {
+            for own in file.split(case) {
                 let found = self.is_in(&value, &own);
                 is_it = match (is_it, found) {
                     (Some(true), _) | (_, Some(true)) => Some(true),
@@ -335,60 +336,43 @@ impl<D: Dialect> Run<'_, '_, D> {
         }
     }
 
-    /// A loop with its condition before its block.
-    fn repeat(&mut self, header: &Range<usize>, block: &[Statement]) -> Flow {
+    /// A loop with its condition before its block, or behind it, where it runs until that holds.
+    fn repeat(&mut self, header: &Range<usize>, block: &[Statement], until: bool) -> Flow {
         let condition = D::expression_of(self.file(), header.clone());
-        if condition.node == Node::Truth(true) {
+        if condition.node == Node::Truth(!until) {
             return self.repeat_for_ever(header, block);
         }
+        // A loop that tests at its end runs at least once.
+        let mut tests = !until;
         loop {
-            self.forget_results();
-            let value = self.value(&condition);
-            match value.as_truth() {
-                Some(true) => {}
-                Some(false) => return Flow::Next,
-                None => {
-                    self.pass_over_loop(block, header, &value);
-                    return Flow::Next;
+            if tests {
+                self.forget_results();
+                let value = self.value(&condition);
+                match value.as_truth() {
+                    Some(truth) if truth == until => return Flow::Next,
+                    Some(_) => {}
+                    None => {
+                        self.pass_over_loop(block, header, &value);
+                        return Flow::Next;
+                    }
                 }
             }
-            if !self.counts_statement() {
-                return self.block(block);
-            }
-            match self.block(block) {
-                Flow::Next | Flow::Continues => {}
-                Flow::Breaks => return Flow::Next,
-                flow => return flow,
+            tests = true;
+            if let Some(flow) = self.pass(block) {
+                return flow;
             }
         }
     }
 
-    /// A loop with its condition behind its block.
-    fn repeat_until(&mut self, header: &Range<usize>, block: &[Statement]) -> Flow {
-        let condition = D::expression_of(self.file(), header.clone());
-        if condition.node == Node::Truth(false) {
-            return self.repeat_for_ever(header, block);
+    /// A pass of a loop; how the run goes on where it leaves the loop.
+    fn pass(&mut self, block: &[Statement]) -> Option<Flow> {
+        if !self.counts_statement() {
+            return Some(self.block(block));
         }
-        loop {
-            if !self.counts_statement() {
-                return self.block(block);
-            }
-            match self.block(block) {
-                Flow::Next | Flow::Continues => {}
-                Flow::Breaks => return Flow::Next,
-                flow => return flow,
-            }
-            self.forget_results();
-            let value = self.value(&condition);
-            match value.as_truth() {
-                Some(true) => return Flow::Next,
-                Some(false) => {}
-                None => {
-                    // A loop that tests at its end runs at least once.
-                    self.pass_over_loop(block, header, &value);
-                    return Flow::Next;
-                }
-            }
+        match self.block(block) {
+            Flow::Next | Flow::Continues => None,
+            Flow::Breaks => Some(Flow::Next),
+            flow => Some(flow),
         }
     }
 
@@ -400,6 +384,7 @@ impl<D: Dialect> Run<'_, '_, D> {
                 "the loop never ends: its first pass is read, and its corrections are those of all"
                     .to_owned(),
             );
+            self.say_beside(header, ENDLESS.to_owned());
             return match self.one_pass(header, block) {
                 Flow::Next | Flow::Continues => Flow::Ends,
                 flow => flow,
@@ -410,17 +395,14 @@ impl<D: Dialect> Run<'_, '_, D> {
             self.pass_over_loop(block, header, &value);
             return Flow::Next;
         }
+        let before = self.faults.len();
         loop {
-            if !self.counts_statement() {
-                return self.block(block);
+            if let Some(flow) = self.pass(block) {
+                return flow;
             }
-            let before = self.faults.len();
-            match self.block(block) {
-                // What leaves it may be what is refused.
-                Flow::Next | Flow::Continues if self.faults.len() > before => return Flow::Next,
-                Flow::Next | Flow::Continues => {}
-                Flow::Breaks => return Flow::Next,
-                flow => return flow,
+            // What leaves it may be what is refused.
+            if self.faults.len() > before {
+                return Flow::Next;
             }
         }
     }
@@ -432,11 +414,8 @@ impl<D: Dialect> Run<'_, '_, D> {
         if !matches!(flow, Flow::Next | Flow::Continues) || self.motions.len() == begin {
             return flow;
         }
-        let (end, here, logged) = (
-            self.motions.len(),
-            self.here,
-            self.log.as_ref().map(Vec::len),
-        );
+        let (end, here, beside) = (self.motions.len(), self.here, self.ran_beside.len());
+        let logged = self.log.as_ref().map(Vec::len);
         self.block(block);
         let [first, second] = [&self.motions[begin..end], &self.motions[end..]];
         let is_same = first.len() == second.len()
@@ -452,6 +431,7 @@ impl<D: Dialect> Run<'_, '_, D> {
         self.repeated_motions -= (self.motions.len() - end).min(self.repeated_motions);
         self.motions.truncate(end);
         self.routines.truncate(end);
+        self.ran_beside.truncate(beside);
         self.here = here;
         if let (Some(log), Some(length)) = (&mut self.log, logged) {
             log.truncate(length);
@@ -582,23 +562,4 @@ fn has_way_out<D: Dialect>(file: &TokenFile<'_>, block: &[Statement], is_innermo
         Statement::Loop { block, .. } => has_way_out::<D>(file, block, false),
         _ => false,
     })
-}
-
-/// Tokens between the commas of a case.
-fn ranges(tokens: &[Token], case: &Range<usize>) -> Vec<Range<usize>> {
-    let mut found = Vec::new();
-    let mut start = case.start;
-    for at in case.clone() {
-        if tokens
-            .get(at)
-            .is_some_and(|token| token.kind == Kind::Symbol(b','))
-        {
-            found.push(start..at);
-            start = at + 1;
-        }
-    }
-    if start < case.end {
-        found.push(start..case.end);
-    }
-    found
 }

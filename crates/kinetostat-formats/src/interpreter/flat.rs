@@ -7,11 +7,13 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::error::ProgramError;
+use crate::flat_run::Written;
 use crate::interpreter::expression::{Argument, Expression, Node};
 use crate::interpreter::run::{Dialect, Logged, Root, Run};
 use crate::interpreter::symbols::{Meaning, Scope, Symbols};
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::RoutineKind;
+use crate::interpreter::value::Datum;
 use crate::model::program::RanStatement;
 use crate::model::site::TargetSite;
 use crate::text::edits::Edits;
@@ -58,6 +60,7 @@ impl<D: Dialect> Run<'_, '_, D> {
                 self.put_value(&value, false, &mut edits);
             }
         }
+        self.put_constants(&(tokens.start + 1..tokens.end), &mut edits);
         self.log_with(tokens, edits);
     }
 
@@ -76,6 +79,7 @@ impl<D: Dialect> Run<'_, '_, D> {
         let mut edits = Edits::default();
         self.put_place(to, &mut edits);
         self.put_value(value, false, &mut edits);
+        self.put_constants(&value.tokens, &mut edits);
         self.log_with(tokens, edits);
     }
 
@@ -122,7 +126,57 @@ impl<D: Dialect> Run<'_, '_, D> {
         if names.any(|name| self.means_another_in_main(&name)) {
             self.cannot_be_flat(tokens, "it uses data of its routine");
         }
-        self.log_with(tokens, Edits::default());
+        let mut edits = Edits::default();
+        self.put_constants(&(tokens.start + 1..tokens.end), &mut edits);
+        self.log_with(tokens, edits);
+    }
+
+    /// Notes what a run says of itself at a statement.
+    pub(crate) fn say_beside(&mut self, tokens: &Range<usize>, text: String) {
+        let file = self.file();
+        if self.log.is_none() {
+            self.ran_beside.push(RanStatement {
+                file: file.index,
+                span: file.span(tokens),
+                motions: self.motions.len(),
+                text: Some(text.into_bytes()),
+            });
+        }
+    }
+
+    /// Puts numbers and truth values in place of names of data: another value makes another statement.
+    fn put_constants(&mut self, tokens: &Range<usize>, edits: &mut Edits) {
+        if self.log.is_some() {
+            return;
+        }
+        let (file, symbols) = (self.file(), self.symbols);
+        for at in tokens.clone() {
+            let Some(name) = file.name(at).filter(|_| file.is_alone(at)) else {
+                continue;
+            };
+            let span = file.span(&(at..at + 1));
+            let word = Expression {
+                node: Node::Word(name),
+                tokens: at..at + 1,
+            };
+            let value = match self.place(&word).map(|place| place.root) {
+                // A value of the files is asked for without a word on it.
+                Some(Root::Module(index)) => match (self.data.get(&index), &symbols.data[index]) {
+                    (Some(value), _) => Some(value.clone()),
+                    (None, datum) => datum.node.initial.clone().map(|initial| {
+                        let value = D::expression_of(&self.files[datum.file], initial);
+                        self.within(datum.scope, |run| run.value(&value))
+                    }),
+                },
+                Some(_) => Some(self.value(&word)),
+                None => None,
+            };
+            let is_scalar = |own: &Datum| own.as_number().is_some() || own.as_truth().is_some();
+            let text = value.filter(is_scalar).and_then(|own| D::printed(&own));
+            if let Some(text) = text.filter(|_| !edits.touches(&span)) {
+                edits.replace(span, text);
+            }
+        }
     }
 
     fn cannot_be_flat(&mut self, tokens: &Range<usize>, why: &str) {
@@ -306,7 +360,7 @@ pub(crate) fn flat_of<D: Dialect>(
         }
     }
     let left_out = |index: usize| left_out.contains(&index);
-    let mut out = Flat::default();
+    let mut out = Written::default();
     let own = symbols.routines[main].file;
     // Routines between the statements of `main` that stay are put before them.
     let statements = &symbols.routines[main].routine.statements;
@@ -329,6 +383,7 @@ pub(crate) fn flat_of<D: Dialect>(
         }
     });
     let log: Vec<Logged> = between.chain(log).collect();
+    let origin = |of: &Logged| (of.file, files[of.file].line_of(of.at));
     for file in token_files
         .iter()
         .filter(|file| D::JOINS_FILES || file.index == own)
@@ -342,25 +397,26 @@ pub(crate) fn flat_of<D: Dialect>(
             }
         }
         cuts.sort_by_key(|(span, _)| span.start);
+        let copy = |span: Range<usize>, out: &mut Written| {
+            let first = file.source.line_of(span.start);
+            out.part(file.source.part(&span), (file.index, first));
+        };
         let mut at = 0;
         for (span, is_main) in cuts {
-            out.copy(file.source, at..span.start, file.index);
+            copy(at..span.start, &mut out);
             if is_main {
                 let indentation = file.source.indentation_before(span.start).to_vec();
                 for (number, logged) in log.iter().enumerate() {
                     if number > 0 {
                         out.bytes.extend_from_slice(file.source.line_ending());
-                        if !indentation.is_empty() {
-                            out.from(logged.file, files[logged.file].line_of(logged.at));
-                            out.bytes.extend_from_slice(&indentation);
-                        }
+                        out.part(&indentation, origin(logged));
                     }
-                    out.state(logged, files);
+                    out.part(&logged.text, origin(logged));
                 }
             }
             at = span.end.max(at);
         }
-        out.copy(file.source, at..file.source.bytes().len(), file.index);
+        copy(at..file.source.bytes().len(), &mut out);
     }
     let changed = out.bytes != files[own].bytes();
     Ok(FlatText {
@@ -411,46 +467,5 @@ fn left_out(
         let Some(stays) = stays else { return out };
         out.remove(&stays);
         named.extend(words_of(stays));
-    }
-}
-
-/// Text of a flat program and the lines that it is from.
-#[derive(Default)]
-struct Flat {
-    bytes: Vec<u8>,
-    /// Origins of all started lines.
-    origins: Vec<(usize, usize)>,
-}
-
-impl Flat {
-    /// Notes the origin of the line that is written, which has none yet.
-    fn from(&mut self, file: usize, line: usize) {
-        let begins = self.bytes.last().is_none_or(|byte| *byte == b'\n');
-        if begins {
-            self.origins.push((file, line));
-        }
-    }
-
-    /// Adds bytes of a file.
-    fn copy(&mut self, source: &SourceFile, span: Range<usize>, file: usize) {
-        let mut at = span.start;
-        for line in source.part(&span).split_inclusive(|byte| *byte == b'\n') {
-            self.from(file, source.line_of(at));
-            self.bytes.extend_from_slice(line);
-            at += line.len();
-        }
-    }
-
-    /// Adds a statement.
-    fn state(&mut self, logged: &Logged, files: &[SourceFile]) {
-        let first = files[logged.file].line_of(logged.at);
-        for (number, line) in logged
-            .text
-            .split_inclusive(|byte| *byte == b'\n')
-            .enumerate()
-        {
-            self.from(logged.file, first + number);
-            self.bytes.extend_from_slice(line);
-        }
     }
 }

@@ -299,7 +299,10 @@ impl Reader<'_, '_> {
                 self.at += 1;
                 Node::Text
             }
-            Kind::Bits => Node::Number(self.bits()?),
+            Kind::Bits => {
+                self.at += 1;
+                Node::Number(self.file.bits(self.at - 1)?)
+            }
             Kind::Symbol(b'{') if self.grammar.has_members => {
                 self.at += 1;
                 Node::Members(self.members(depth)?)
@@ -341,18 +344,6 @@ impl Reader<'_, '_> {
         self.at += usize::from(is_number);
         let value: f64 = is_number.then(|| std::str::from_utf8(text).ok()?.parse().ok())??;
         value.is_finite().then_some(value)
-    }
-
-    /// Digits of base 2 or 16.
-    fn bits(&mut self) -> Option<f64> {
-        let text = std::str::from_utf8(self.file.word(self.at)).ok()?;
-        self.at += 1;
-        let base = match text.as_bytes().get(1)? {
-            b'B' | b'b' => 2,
-            _ => 16,
-        };
-        let digits = text.get(2..text.len() - 1)?;
-        u32::from_str_radix(digits, base).ok().map(f64::from)
     }
 
     /// `{FRAME: X 10,Y 20}`, behind the brace; the name of the type may be left out.

@@ -400,6 +400,14 @@ impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
         }]
     }
 
+    /// The result of what is done with the names of another scope.
+    pub(crate) fn within<T>(&mut self, scope: Scope, act: impl FnOnce(&mut Self) -> T) -> T {
+        let outer = std::mem::replace(&mut self.scope, scope);
+        let found = act(self);
+        self.scope = outer;
+        found
+    }
+
     /// Notes that the statement of a motion runs; false where too many ran before.
     pub(crate) fn begins_motion(&mut self, tokens: &Range<usize>) -> bool {
         let start = self.file().span(tokens).start;

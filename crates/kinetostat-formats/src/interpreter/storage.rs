@@ -163,20 +163,16 @@ impl<D: Dialect> Run<'_, '_, D> {
                 });
             }
         }
-        let outer = std::mem::replace(&mut self.scope, datum.scope);
         let expression = D::expression_of(&self.files[datum.file], tokens);
-        let value = self.value(&expression);
-        self.scope = outer;
-        value
+        self.within(datum.scope, |run| run.value(&expression))
     }
 
     /// A declared array with the first values of its elements, which stand in statements of their own.
     fn with_elements(&mut self, index: usize, mut whole: Datum) -> Datum {
         let datum = &self.symbols.data[index];
-        let outer = std::mem::replace(&mut self.scope, datum.scope);
         for (number, preset) in &datum.elements {
             let expression = D::expression_of(&self.files[datum.file], preset.value.clone());
-            let value = self.value(&expression);
+            let value = self.within(datum.scope, |run| run.value(&expression));
             let Some(element) = number.checked_sub(1) else {
                 whole = value;
                 continue;
@@ -193,7 +189,6 @@ impl<D: Dialect> Run<'_, '_, D> {
             }
             whole.put(&[Step::Index(element)], value);
         }
-        self.scope = outer;
         whole
     }
 
@@ -219,12 +214,11 @@ impl<D: Dialect> Run<'_, '_, D> {
         let Some(sizes) = datum.node.dimensions.clone() else {
             return value;
         };
-        let outer = std::mem::replace(&mut self.scope, datum.scope);
-        let sizes: Vec<Option<usize>> = D::arguments_of(&self.files[datum.file], sizes)
-            .iter()
-            .map(|size| index_of(&self.value(size.value.as_ref()?), 1).map(|last| last + 1))
-            .collect();
-        self.scope = outer;
+        let arguments = D::arguments_of(&self.files[datum.file], sizes);
+        let sizes: Vec<Option<usize>> = self.within(datum.scope, |run| {
+            let size = |size: &Argument| Some(index_of(&run.value(size.value.as_ref()?), 1)? + 1);
+            arguments.iter().map(size).collect()
+        });
         let count = sizes
             .iter()
             .try_fold(1, |all: usize, own| all.checked_mul((*own)?));

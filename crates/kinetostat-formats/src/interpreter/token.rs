@@ -84,6 +84,31 @@ impl TokenFile<'_> {
         is_word.then(|| Name::of(self.word(at)))?
     }
 
+    /// The number of digits of base 2 or 16.
+    pub(crate) fn bits(&self, at: usize) -> Option<f64> {
+        let text = std::str::from_utf8(self.word(at)).ok()?;
+        let base = match text.as_bytes().get(1)? {
+            b'B' | b'b' => 2,
+            _ => 16,
+        };
+        let digits = text.get(2..text.len() - 1)?;
+        u32::from_str_radix(digits, base).ok().map(f64::from)
+    }
+
+    /// The parts between the commas that stand in no bracket.
+    pub(crate) fn split(&self, tokens: &Range<usize>) -> impl Iterator<Item = Range<usize>> + '_ {
+        let (mut start, upto) = (tokens.start, tokens.end);
+        std::iter::from_fn(move || {
+            let end = match start < upto {
+                true => self.find(start..upto, b',').unwrap_or(upto),
+                false => return None,
+            };
+            let part = start..end;
+            start = end + 1;
+            Some(part)
+        })
+    }
+
     /// The place of a range of tokens in the file.
     pub(crate) fn span(&self, tokens: &Range<usize>) -> Range<usize> {
         let place = |at: usize| self.tokens.get(at).map(Token::bytes);
@@ -113,6 +138,15 @@ impl TokenFile<'_> {
     pub(crate) fn is(&self, at: usize, symbol: u8) -> bool {
         let token = self.tokens.get(at);
         token.is_some_and(|token| token.kind == Kind::Symbol(symbol))
+    }
+
+    /// True for a name that is no part of another one, no option, and not that of a call or an element.
+    pub(crate) fn is_alone(&self, at: usize) -> bool {
+        let before = at.checked_sub(1);
+        let is_part = before.is_some_and(|at| b".\\#".iter().any(|sign| self.is(at, *sign)));
+        let next = self.tokens.get(at + 1).map(|token| token.kind);
+        let opens = [b'.', b'(', b'['].map(Kind::Symbol);
+        !is_part && next.is_none_or(|next| next != Kind::Assign && !opens.contains(&next))
     }
 
     /// True if a token is this word, given in capitals.

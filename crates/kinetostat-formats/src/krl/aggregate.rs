@@ -58,18 +58,9 @@ pub(crate) fn number_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Option<f
         return None;
     }
     let at = tokens.start + signed;
-    let text = std::str::from_utf8(file.word(at)).ok()?;
-    let value: f64 = match file.tokens.get(at)?.kind {
-        Kind::Number => text.parse().ok()?,
-        Kind::Bits => {
-            let base = match text.as_bytes().get(1)? {
-                b'B' | b'b' => 2,
-                _ => 16,
-            };
-            u32::from_str_radix(text.get(2..text.len() - 1)?, base)
-                .ok()?
-                .into()
-        }
+    let value = match file.tokens.get(at)?.kind {
+        Kind::Number => std::str::from_utf8(file.word(at)).ok()?.parse().ok()?,
+        Kind::Bits => file.bits(at)?,
         _ => return None,
     };
     let value = match signed == 1 && file.is(tokens.start, b'-') {

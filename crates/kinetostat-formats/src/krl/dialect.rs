@@ -17,7 +17,6 @@ use crate::krl::lex::assignment;
 use crate::krl::position::{datum_of, position_of};
 use crate::krl::role::Role;
 use crate::krl::settings::is_in_force;
-use crate::krl::speed_place::items;
 use crate::krl::state::{InForce, Krl, Run};
 use crate::krl::table::{motion_row, only_reads, row};
 use crate::table::Treatment;
@@ -252,7 +251,7 @@ impl Dialect for Krl {
         let ends = row.map_or_else(Vec::new, |row| ends_of(file, tokens, row.ends));
         let with = tokens.clone().find(|at| file.is_word(*at, "WITH"));
         let list = with.map(|at| at + 1..tokens.end);
-        let items = list.iter().flat_map(|list| items(file, list));
+        let items = list.iter().flat_map(|list| file.split(list));
         let values = items.filter_map(|item| {
             let equals = assignment(file, &item)?;
             Some(read(equals + 1..item.end))

@@ -178,6 +178,11 @@ impl ProgramLanguage for KrlLanguage {
         Some("={")
     }
 
+    /// Motions of splines blend and turn otherwise.
+    fn law_of_motion(&self, word: &str) -> Option<&'static str> {
+        word.starts_with('S').then_some("a spline motion")
+    }
+
     fn words_of_motion(&self, _motion: &Motion) -> Option<Vec<String>> {
         let passes = MOTIONS.iter().map(|row| row.pass.to_owned());
         Some(passes.collect())

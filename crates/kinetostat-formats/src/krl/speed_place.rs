@@ -34,7 +34,7 @@ impl SpeedPlace {
         with: &Range<usize>,
         in_block: bool,
     ) -> Self {
-        let stated = items(file, with).filter_map(|item| stated_in(file, &item));
+        let stated = file.split(with).filter_map(|item| stated_in(file, &item));
         match (stated.last(), in_block) {
             (Some(number), _) => Self::Own(number.map(|tokens| file.span(&tokens))),
             (None, false) => Self::Before,
@@ -63,23 +63,6 @@ impl SpeedPlace {
             unit_mm_per_s: METRE_MM,
         })
     }
-}
-
-/// The parts of a WITH between its commas.
-pub(crate) fn items<'f>(
-    file: &'f TokenFile<'_>,
-    with: &Range<usize>,
-) -> impl Iterator<Item = Range<usize>> + 'f {
-    let (mut start, upto) = (with.start, with.end);
-    std::iter::from_fn(move || {
-        let end = match start < upto {
-            true => file.find(start..upto, b',').unwrap_or(upto),
-            false => return None,
-        };
-        let item = start..end;
-        start = end + 1;
-        Some(item)
-    })
 }
 
 /// The number of `$VEL.CP=0.1`, `$VEL={CP 0.1,ORI1 200}` and `$VEL=SVEL_CP(0.1, ,LCPDAT1)`: None within where another expression stands

@@ -5,7 +5,6 @@ use std::ops::Range;
 use crate::error::excerpt;
 use crate::interpreter::run::Reason;
 use crate::krl::lex::assignment;
-use crate::krl::speed_place::items;
 use crate::krl::state::Run;
 
 /// System variables that say nothing of where the tool goes: accelerations, loads, how joints and external axes are timed.
@@ -45,7 +44,7 @@ impl Run<'_, '_> {
     /// Takes what the tokens behind WITH put in force, for one motion or one spline block.
     pub(super) fn with(&mut self, tokens: &Range<usize>) -> Result<(), Reason> {
         let file = self.file();
-        let all: Vec<Range<usize>> = items(file, tokens).collect();
+        let all: Vec<Range<usize>> = file.split(tokens).collect();
         for item in all {
             let name = file.name(item.start);
             let is_one = |all: &[&str]| name.is_some_and(|name| all.iter().any(|one| name.is(one)));

@@ -274,6 +274,7 @@ impl Run<'_, '_> {
             values: self.values.clone(),
             modal: self.modal,
             motions: self.motions.len(),
+            beside: self.ran_beside.len(),
         };
         let Some(called) = self.calls.last_mut() else {
             return false;
@@ -283,8 +284,8 @@ impl Run<'_, '_> {
             before.decided == now.decided
                 || (before.values == now.values && before.modal == now.modal)
         };
-        let before = match called.passes.get(&at) {
-            Some(before) if is_same(before) => before.motions,
+        let (before, beside) = match called.passes.get(&at) {
+            Some(before) if is_same(before) => (before.motions, before.beside),
             _ => {
                 called.passes.insert(at, now);
                 return false;
@@ -304,6 +305,7 @@ impl Run<'_, '_> {
                 }
             }
         }
+        self.log_endless(at, (before.saturating_sub(count), beside));
         self.find(
             at,
             "the loop never ends: its first pass is read, and its corrections are those of all",

@@ -65,6 +65,13 @@ impl ProgramLanguage for LsLanguage {
         Some("/PROG")
     }
 
+    fn unread_endings(&self) -> &'static [(&'static str, &'static str)] {
+        &[(
+            "tp",
+            "it holds a TP program in the form of the controller, which is not read: save it as text there (ASCII, .ls), and give that",
+        )]
+    }
+
     fn own_words(&self) -> &'static [(&'static str, &'static str)] {
         &[("/PROG", "ls")]
     }

@@ -15,7 +15,7 @@ use crate::ls::step::Step;
 use crate::model::findings::unreached_motions;
 use crate::model::motion::{Motion, Runs, mark_repeated};
 use crate::model::outside_call::OutsideCall;
-use crate::model::program::RanStatement;
+use crate::model::program::{ENDLESS, RanStatement};
 use crate::model::site::OffsetAxes;
 use crate::text::name::Name;
 use crate::text::source::SourceFile;
@@ -90,6 +90,7 @@ pub(super) struct Pass {
     pub values: BTreeMap<Name, Datum>,
     pub modal: Modal,
     pub motions: usize,
+    pub beside: usize,
 }
 
 /// A call that runs.
@@ -286,6 +287,15 @@ impl<'o, 'p> Run<'o, 'p> {
             motions: self.motions.len(),
             text: None,
         });
+    }
+
+    /// Notes a loop without an end, behind so many motions and statements.
+    pub(super) fn log_endless(&mut self, at: usize, (motions, beside): (usize, usize)) {
+        self.ran_beside.truncate(beside);
+        self.log(at);
+        if let Some(last) = self.ran_beside.last_mut() {
+            (last.motions, last.text) = (motions, Some(ENDLESS.into()));
+        }
     }
 
     /// Notes a fault of a step once.

@@ -14,6 +14,8 @@ pub enum EventKind {
     Dwell,
     /// Stop until somebody restarts the program.
     Stop,
+    /// A loop that nothing leaves.
+    Endless,
     /// Text for people.
     Comment,
     /// The end of the program.
@@ -31,6 +33,7 @@ impl EventKind {
             Self::Tool => "tools",
             Self::Dwell => "dwells",
             Self::Stop => "stops",
+            Self::Endless => "loops without an end",
             Self::Comment => "comments",
             Self::End => "end of the program",
             Self::Other => "other statements",

@@ -3,6 +3,7 @@
 use crate::making::action::{Coolant, EventAction};
 use crate::making::event_kind::EventKind;
 use crate::model::language::Language;
+use crate::model::program::ENDLESS;
 
 /// Action of the only statement of a line; `None` if no other language has it.
 pub(crate) fn action_of(language: Language, text: &str) -> Option<EventAction> {
@@ -76,6 +77,7 @@ pub(crate) fn kind_of(language: Language, upper: &str) -> EventKind {
         () if upper.starts_with(language.comment()) || has(&["PPRINT", "REMARK"]) => {
             EventKind::Comment
         }
+        () if upper == ENDLESS => EventKind::Endless,
         () if has(&["SPINDL"]) => EventKind::Spindle,
         () if has(&["COOLNT"]) => EventKind::Coolant,
         () if has(&["LOAD", "TOOLNO", "TOOL PATH", "TLDATA"]) => EventKind::Tool,

@@ -97,14 +97,21 @@ pub fn statements_of_run(program: &RobotProgram) -> Vec<RunStatement> {
 }
 
 /// The options in the statement of a motion of an arm, in capitals: what is neither its way nor its end, speed, zone, tool and work
-/// object. Of other languages there are none.
+/// object; and by which law it passes its places. Of other languages there are none.
 #[must_use]
 pub fn options_of_motion(program: &RobotProgram, motion: &Motion) -> String {
-    let told = program.language.words_of_motion(motion);
-    let Some((file, told)) = program.files.get(motion.file).zip(told) else {
+    let Some(file) = program.files.get(motion.file) else {
         return String::new();
     };
     let site = &motion.site;
+    let keyword = plain(
+        program.language,
+        &String::from_utf8_lossy(file.part(&site.keyword)),
+    );
+    let law = program.language.law_of_motion(&keyword).unwrap_or_default();
+    let Some(told) = program.language.words_of_motion(motion) else {
+        return law.to_owned();
+    };
     let mut parts: Vec<Range<usize>> = [&site.keyword, &site.target_span]
         .into_iter()
         .chain(site.via.as_ref().map(|(span, _)| span))
@@ -129,7 +136,8 @@ pub fn options_of_motion(program: &RobotProgram, motion: &Motion) -> String {
         text = text.replace(&part.to_ascii_uppercase(), "");
     }
     // Separators of arguments say nothing by themselves.
-    text.trim_matches(',').replace(",,", "")
+    let text = text.trim_matches(',').replace(",,", "");
+    format!("{law}{text}")
 }
 
 /// A statement in capitals without its comment, with a blank between words alone.

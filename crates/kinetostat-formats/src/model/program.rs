@@ -12,6 +12,12 @@ use crate::model::stated_value::StatedValue;
 use crate::text::finding::Finding;
 use crate::text::source::SourceFile;
 
+/// Text of a loop that nothing leaves, among the statements that ran.
+pub(crate) const ENDLESS: &str = "A LOOP WITHOUT END";
+
+/// Word before the accelerations with which a motion states that it runs, among the statements that ran.
+pub(crate) const ACCELERATION: &str = "ACCELERATION";
+
 /// A statement beside the motions that ran.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RanStatement {
@@ -20,7 +26,7 @@ pub(crate) struct RanStatement {
     pub span: Range<usize>,
     /// How many motions ran before it.
     pub motions: usize,
-    /// With values in place of names that its routine alone knows; none where it has no such names.
+    /// With values in place of names, or what the run says of itself; none where it is as it is written.
     pub text: Option<Vec<u8>>,
 }
 

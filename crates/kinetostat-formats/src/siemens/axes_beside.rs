@@ -1,4 +1,4 @@
-//! Axes beside X, Y and Z: they may stand, and not move.
+//! Axes beside X, Y and Z: they may stand, and not move; those that turn stand at zero alone.
 
 use crate::siemens::block::{How, Item};
 use crate::siemens::state::Code;
@@ -20,6 +20,7 @@ impl Reader<'_> {
     ) {
         let steps = how == How::Step || how == How::Modal && self.state.steps;
         let code = self.state.code;
+        let turns = matches!(name, "A" | "B" | "C");
         let axis = self
             .state
             .others
@@ -28,8 +29,8 @@ impl Reader<'_> {
         match (purpose, axis.at) {
             (Purpose::Machine, _) => axis.elsewhere = true,
             (_, _) if steps && value == 0.0 => {}
-            // From wherever it stands, beside a motion of the tool.
-            (Purpose::Motion, None) if !steps && value != 0.0 && code != Code::Rapid => {
+            // From wherever it stands, beside a motion of the tool; and turned, whether by a rapid or not.
+            (Purpose::Motion, None) if !steps && value != 0.0 && (turns || code != Code::Rapid) => {
                 axis.at = Some(value);
                 self.moves_aside(name, item);
             }

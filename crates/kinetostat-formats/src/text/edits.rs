@@ -17,6 +17,12 @@ impl Edits {
         self.0.is_empty()
     }
 
+    /// True where a byte of a range is replaced.
+    pub(crate) fn touches(&self, span: &Range<usize>) -> bool {
+        let mut all = self.0.iter();
+        all.any(|(own, _)| own.start < span.end && span.start < own.end)
+    }
+
     /// Adds those of another.
     pub(crate) fn append(&mut self, mut other: Self) {
         self.0.append(&mut other.0);

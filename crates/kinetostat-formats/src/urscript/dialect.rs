@@ -34,11 +34,16 @@ impl BlockDialect for UrScript {
         name: "URScript",
         title: "Universal Robots URScript",
         endings: &["script", "urscript"],
+        unread_endings: &[(
+            "urp",
+            "it holds the program tree of PolyScope, compressed, which is not read: export the script (saved on the pendant, a .script lies beside the .urp), and give that",
+        )],
         comment: "#",
         statements: URSCRIPT_STATEMENTS,
         written: "Written: numbers of poses in place, in metres and as rotation vectors, poses that several motions use copied under a free name, further motions as movel or movep, and of circles as movec, with the same speed, TCP and frame. The pieces before the end of a divided motion blend within 0.1 mm.",
         held_word: "MOVE",
         order_words: &["DEF", "END", "GLOBAL", "LOCAL", "SET_TCP", "$"],
+        laws: &[(&["MOVEP", "MOVEC"], "a process motion")],
         syntax: &UrScriptSyntax,
     };
     const WORDS: &'static Words = &WORDS;

@@ -9,6 +9,7 @@ use crate::interpreter::expression::{Argument, Expression, Node};
 use crate::interpreter::run::{self, Reason};
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::{Motion, MotionKind, Speed, Zone};
+use crate::model::program::ACCELERATION;
 use crate::model::site::{MotionSite, SpeedSite, TargetSite};
 use crate::model::target::Target;
 use crate::urscript::grammar::FORM;
@@ -105,6 +106,14 @@ impl Run<'_, '_> {
             Some(0.0) => Zone::Exact,
             blend => blend.map_or(Zone::Unstated, |radius| Zone::Radius(1e3 * radius)),
         };
+        // The manual's defaults, in m/s2 and rad/s2.
+        let usual = if row.name == "movej" { 1.4 } else { 1.2 };
+        let stated = given("A").map(|own| self.value(own).as_number());
+        let acceleration = match stated.unwrap_or(Some(usual)) {
+            Some(number) => number.to_string(),
+            None => given("A").map_or_else(String::new, |own| file.text(&own.tokens)),
+        };
+        self.say_beside(tokens, format!("{ACCELERATION} {acceleration}"));
         if let (true, Some(time), MotionKind::Linear) = (is_timed, time.flatten(), &motion.kind) {
             motion.speed.mm_per_s = self.way_mm(&motion).map(|way| way / time);
         }
@@ -153,7 +162,7 @@ impl Run<'_, '_> {
         };
         let value = self.value(pose);
         let in_joints = "its end is stated in joints, and which pose they give is not known";
-        let remedy = "write the end as a pose; joint values are the end of a movej alone";
+        let remedy = "write the end as a pose, or go there by movej, which takes joint values";
         let (target, site) = match (value.as_numbers::<6>(), row.name) {
             (Some(joints), "movej") => {
                 let values_deg = joints.map(f64::to_degrees).to_vec();

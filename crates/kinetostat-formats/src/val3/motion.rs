@@ -11,6 +11,7 @@ use crate::interpreter::value::{Datum, Value};
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::{Motion, MotionKind, Speed, Zone};
 use crate::model::orientation::OrientationText;
+use crate::model::program::ACCELERATION;
 use crate::model::site::{MotionSite, PoseText, ReplacedText, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::UnknownTargets;
@@ -96,6 +97,13 @@ impl Run<'_, '_> {
         site.via = via_site;
         site.indivisible = (kind == MotionKind::Joint).then_some("this motion cannot be divided");
         let described = self.described(description, kind == MotionKind::Joint);
+        let description = self.value(description);
+        // Percent of what the arm is set up for, and as much where the data leave a number out.
+        let said = ["ACCEL", "VEL", "DECEL"].map(|name| {
+            let number = single(&description).member(name).and_then(Datum::as_number);
+            format!(" {name} {}", number.unwrap_or(100.0))
+        });
+        self.say_beside(tokens, format!("{ACCELERATION}{}", said.concat()));
         let frames = [tool, own.frame];
         let mut motion = self.made_motion(tokens, kind, (own.target, site), frames);
         (motion.speed, motion.zone) = described;

@@ -88,33 +88,39 @@ pub(super) const SAME_MM: f64 = 1e-4;
 pub(super) const SAME_RAD: f64 = 1e-7;
 
 /// Farther than any robot reaches, mm.
-pub(crate) const FARTHEST_MM: f64 = 1e6;
+const FARTHEST_MM: f64 = 1e6;
 
-/// Checks that the numbers of pieces are finite and within range.
+/// A piece whose numbers no program can have.
+pub(crate) const ABSURD: Reason = (
+    "a piece has no finite place, orientation or speed, no finite angle of an axis or share, or a place farther than 1 km",
+    "mend the correction",
+);
+
+/// True where all numbers of a piece are finite and within range.
+pub(crate) fn is_finite(piece: &Piece) -> bool {
+    let via = piece.via_mm.unwrap_or_default();
+    let turns = piece.orientation.iter().chain(&piece.via_orientation);
+    let mut numbers = turns
+        .flat_map(|turn| turn.coords.iter())
+        .chain(piece.rotary_deg.iter().flatten())
+        .chain(&piece.share);
+    let mut places = piece.position_mm.iter().chain(via.iter());
+    places.all(|value| value.abs() < FARTHEST_MM)
+        && numbers.all(|value| value.is_finite())
+        && piece.speed_factor.is_finite()
+        && piece.speed_factor > 0.0
+}
+
+/// Checks that pieces have numbers and no centres.
 pub(crate) fn check_pieces(pieces: &[&Piece]) -> Result<(), Reason> {
-    let finite = |piece: &&Piece| {
-        let via = piece.via_mm.unwrap_or_default();
-        let far = |value: &f64| value.abs() < FARTHEST_MM;
-        piece.position_mm.iter().chain(via.iter()).all(far)
-            && piece.speed_factor.is_finite()
-            && piece.speed_factor > 0.0
-            && piece
-                .orientation
-                .iter()
-                .chain(&piece.via_orientation)
-                .all(|q| q.coords.iter().all(|part| part.is_finite()))
-    };
     if pieces.iter().any(|piece| piece.centre_mm.is_some()) {
         return Err((
             "a piece goes about a centre, and only Heidenhain programs are written so",
             "give it a place between its ends, or make it straight",
         ));
     }
-    match pieces.iter().all(finite) {
+    match pieces.iter().all(|piece| is_finite(piece)) {
         true => Ok(()),
-        false => Err((
-            "a piece has no finite place, orientation or speed, or one farther than 1 km",
-            "mend the correction",
-        )),
+        false => Err(ABSURD),
     }
 }

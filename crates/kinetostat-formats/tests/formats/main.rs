@@ -37,6 +37,7 @@ mod rapid;
 mod real_files;
 mod refused_runs;
 mod refusing;
+mod run_statements;
 mod siemens;
 mod starts_alone;
 mod turned_work_objects;

@@ -204,10 +204,12 @@ fn one_of_each<'j>(places: &[&'j JudgedSite]) -> Vec<&'j JudgedSite> {
     places.iter().filter(is_first).copied().collect()
 }
 
-/// Selects about `most` of the places, evenly; the last one always, as the machine is in another posture there.
+/// Selects at most `most` of the places, evenly; the last one always, as the machine is in another posture there.
 fn some_of(places: usize, most: usize) -> impl Iterator<Item = bool> {
     let step = places.div_ceil(most).max(1);
-    (0..places).map(move |k| k.is_multiple_of(step) || k + 1 == places)
+    (0..places)
+        .rev()
+        .map(move |behind| behind.is_multiple_of(step))
 }
 
 /// Feed at a speed with the feed per tooth of the program, mm/min, where that is one along the stretch.

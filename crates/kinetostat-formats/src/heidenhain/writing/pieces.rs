@@ -8,7 +8,7 @@ use crate::heidenhain::writing::arc::Block;
 use crate::heidenhain::writing::words::{Part, When, functions_of};
 use crate::heidenhain::writing::writer::{ABOUT_CENTRE, Reason, SAME_MM, Writer};
 use crate::model::motion::Motion;
-use crate::writing::piece::{FARTHEST_MM, Piece};
+use crate::writing::piece::{ABSURD, Piece, is_finite};
 
 impl Writer<'_> {
     pub(crate) fn pieces(
@@ -138,22 +138,8 @@ impl Writer<'_> {
 
 /// Checks that the writer can express a piece.
 fn can_be_written(piece: &Piece, way: &Way) -> Result<(), Reason> {
-    let near = piece
-        .position_mm
-        .iter()
-        .all(|value| value.abs() < FARTHEST_MM);
-    if !(near && piece.speed_factor.is_finite() && piece.speed_factor > 0.0) {
-        return Err((
-            "a piece has no finite place or speed, or one farther than 1 km".to_owned(),
-            "mend the correction",
-        ));
-    }
-    let is_number = |turn: nalgebra::UnitQuaternion<f64>| turn.coords.iter().all(|c| c.is_finite());
-    if !piece.orientation.is_none_or(is_number) {
-        return Err((
-            "a piece has an orientation that is no number".to_owned(),
-            "mend the correction",
-        ));
+    if !is_finite(piece) {
+        return Err((ABSURD.0.to_owned(), ABSURD.1));
     }
     let centred = piece
         .centre_mm

@@ -245,6 +245,9 @@ fn what_cannot_be_written_is_said() {
     assert!(refused(Piece::to(0, Vector3::zeros())).contains("line 12: the motion has no place"));
     assert!(refused(Piece::to(999, Vector3::zeros())).contains("motion 999"));
     assert!(refused(Piece::to(2, Vector3::repeat(f64::NAN))).contains("no finite place"));
+    let mut turned = lifted(&program, 2, 0.0);
+    turned.rotary_deg = Some(vec![f64::INFINITY]);
+    assert!(refused(turned).contains("no finite angle of an axis"));
     let mut turned = lifted(&program, 3, 0.0);
     turned.orientation = Some(nalgebra::UnitQuaternion::from_euler_angles(0.1, 0.0, 0.0));
     assert!(refused(turned).contains("states a direction of the tool"));

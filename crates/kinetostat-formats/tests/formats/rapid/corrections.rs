@@ -229,6 +229,9 @@ fn joints_unknown_motions_and_absurd_pieces_are_refused() {
     let mut still = Piece::to(1, Vector3::zeros());
     still.speed_factor = 0.0;
     assert!(refused(still).contains("no finite place, orientation or speed"));
+    let mut turned = Piece::to(1, Vector3::zeros());
+    turned.rotary_deg = Some(vec![0.0, f64::NAN]);
+    assert!(refused(turned).contains("no finite angle of an axis"));
 }
 
 #[test]

@@ -149,8 +149,12 @@ fn what_moves_the_tool_otherwise_is_refused_by_line() {
             "variables of axes and frames are not followed",
         ),
         (
-            "A5\nA30",
+            "A0\nA30",
             "the axis A moves: where the tool stands on the part then",
+        ),
+        (
+            "G0 B30",
+            "the axis B moves: where the tool stands on the part then",
         ),
         (
             "/G1 X5",

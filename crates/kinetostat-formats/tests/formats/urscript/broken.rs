@@ -145,3 +145,13 @@ fn loops_calls_and_nesting_end() {
         program("def a():\nwhile True:\nmovel(p[1,0,0,0,0,0])\nmovel(p[2,0,0,0,0,0])\nend\nend");
     assert_eq!(endless.motions.len(), 2);
 }
+
+/// Forms of programs that are not read say what to export.
+#[test]
+fn other_forms_of_programs_are_refused_in_words() {
+    for (name, words) in [("part.urp", ".script"), ("PART.TP", ".ls")] {
+        let said = odd_program(name, &[0x1f, 0x8b, 8, 0]).unwrap();
+        assert!(said.contains(words) && said.contains("not read"), "{said}");
+        assert_eq!(language_of(name, &[0x1f, 0x8b]), None);
+    }
+}
