@@ -9,6 +9,31 @@ fn result(bytes: &[u8]) -> Value {
     serde_json::from_slice(bytes).expect("JSON")
 }
 
+/// No feed is left out of length and verdict in silence: one whose start is not known ends with 3.
+#[test]
+fn a_feed_from_an_unknown_place_leaves_the_verdict_open() {
+    let here = workplace();
+    let cut = "G21 G90\nG0 X0 Y0\nZ5\nG1 Z-1 F300\nX30\nG53 G0 Z0\n";
+    let rest = "G0 Z5\nG1 Z-1 F300\nX30\nG0 Z5\nM30\n";
+    let job = JOB.replace("part.ngc", "lost.ngc");
+    std::fs::write(here.path().join("lost.toml"), job).unwrap();
+    let ends = |way: &str| {
+        std::fs::write(
+            here.path().join("lost.ngc"),
+            [cut, way, "\n", rest].concat(),
+        )
+        .unwrap();
+        run(
+            here.path(),
+            &["compensate", "lost.toml", "--force-overwrite"],
+        )
+    };
+    assert_eq!(ends("G0 X0 Y10").code, 0);
+    let said = ends("G1 X0 Y10 F3000");
+    assert_eq!(said.code, 3, "{said:?}");
+    assert!(said.err.contains("the first on line 7"), "{}", said.err);
+}
+
 #[test]
 fn tools_of_a_program_have_their_own_lengths_and_without_a_table_a_warning() {
     let here = workplace();

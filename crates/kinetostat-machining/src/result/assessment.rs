@@ -42,6 +42,8 @@ pub enum AssumptionKind {
     OutsideCalls,
     /// Lengths of a program that states no unit.
     Units,
+    /// Feeds of which no way is judged: they start at a place that is not known, or go as the controller has it.
+    UnjudgedFeeds,
 }
 
 /// An assumption on which the figures of a run rest.

@@ -113,6 +113,15 @@ pub(crate) fn conclude(
         );
         result.assume(Assumption::new(AssumptionKind::Units, None, text));
     }
+    if let Some(line) = task.path().unjudged_feed_on {
+        let text = format!(
+            "Feeds whose start or way is not known, the first on line {line}, cut nothing that counts: no error is computed along them."
+        );
+        result.assume(Assumption {
+            is_critical: true,
+            ..Assumption::new(AssumptionKind::UnjudgedFeeds, None, text)
+        });
+    }
     run
 }
 

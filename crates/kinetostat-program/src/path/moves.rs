@@ -223,6 +223,8 @@ pub struct Path {
     pub part: Option<PathPart>,
     /// First line with lengths whose unit the program does not state: they are taken for millimetres.
     pub units_assumed_on: Option<usize>,
+    /// First line with a feed of which no way is judged, because its start is not known or its way is the controller's own.
+    pub unjudged_feed_on: Option<usize>,
 }
 
 /// Something the user should know; not an error.

@@ -64,6 +64,7 @@ impl Interpreter<'_> {
             "the cycle G{} stays as it is written: the place over its hole is corrected, its depth is not, and its way is in no length and no verdict",
             code / 10
         ));
+        self.unjudged_feed_on.get_or_insert(block.line_number);
         self.modes.motion = Some(Motion::Off);
         self.knowledge.push(([true; 3], [true; 3], false));
         self.moves.push(Move {

@@ -43,6 +43,7 @@ impl Interpreter<'_> {
             events: self.events,
             part: None,
             units_assumed_on: self.units_assumed_on,
+            unjudged_feed_on: self.unjudged_feed_on,
         };
         self.tools.finish(&mut path, program, self.options)?;
         path.warnings.extend(path.rotary_findings());

@@ -42,6 +42,8 @@ pub(crate) struct Interpreter<'o> {
     pub(super) warnings: Vec<Warning>,
     /// Line of the first lengths without a unit.
     pub(super) units_assumed_on: Option<usize>,
+    /// Line of the first feed whose way is not judged.
+    pub(super) unjudged_feed_on: Option<usize>,
 }
 
 /// Modal state that blocks leave for later ones.
@@ -85,6 +87,7 @@ impl<'o> Interpreter<'o> {
             spindle: SpindleWords::default(),
             warnings: Vec::new(),
             units_assumed_on: None,
+            unjudged_feed_on: None,
         }
     }
 

@@ -63,6 +63,9 @@ impl Interpreter<'_> {
             .turn_of_move(block, kind, (&angles, &self.modes), &mut self.places)?
             .map(|turn| with_circle(turn, circle));
         let lost = self.places.first_lost();
+        if lost_before.is_some() {
+            self.unjudged_feed_on.get_or_insert(block.line_number);
+        }
         if let (Some((axis, ..)), None) = (lost_before, lost) {
             self.repeated.note(block.line_number, &format!(
                 "where this feed starts along {} is not known (a tool length, G28, G30 or G53 changed it): only its end is corrected, and its way is in no length and no verdict",
