@@ -1,10 +1,10 @@
-"""Where the tool of an elastic arm really is along a compensated KRL or RAPID program, by Pinocchio.
+"""Where the tool of an elastic arm really is along a compensated program of a robot, by Pinocchio.
 
 Nothing of kinetostat takes part but its outputs: the program is read here from its text, the controller's
 interpolation, inverse kinematics, deflection and weight are computed here. Reads one JSON object from the standard
 input:
-  language             "krl", "rapid" or "joints"
-  programmed, written  paths of the program before and after the compensation; inline targets, one motion a line;
+  language             "krl", "rapid", "tp", "urscript", "val3" or "joints"
+  programmed, written  paths of the program before and after the compensation; one motion a line;
                        of "joints" a table (CSV) with the columns note, A1_deg, ..., A6_deg: of rows with one note the
                        last one counts, and those with the first note are in air
   points               path of the table of points (CSV) of the compensation, of every point; not of "joints"
@@ -18,7 +18,7 @@ A model file may have revolute drives and links of tubes in series: each link is
 (x, y, z, rx, ry, rz) with the 6 x 6 stiffness of a cantilever at its end.
 
 How the tool turns between two targets of a linear or circular motion:
-  one_axis         about one axis, evenly: slerp of quaternions (ABB)
+  one_axis         about one axis, evenly: slerp of quaternions (ABB, FANUC, Universal Robots, Staubli)
   swivel_and_turn  the tool's x goes along a great circle, evenly, and the tool turns evenly about its x (KUKA's LIN)
 
 Equilibrium: springs in all joints hold what force, moment and weight put on them in the deflected posture, found by
@@ -33,6 +33,8 @@ import math
 import re
 import sys
 import tomllib
+from pathlib import Path
+from xml.etree import ElementTree
 
 try:
     import numpy as np
@@ -110,6 +112,69 @@ def read_rapid(path):
     frame = numbers(work[1])
     base = rapid_pose(frame[:7]) * rapid_pose(frame[7:])
     return motions, rapid_pose(numbers(tool[1])), base
+
+
+WORDS = {"j": "PTP", "l": "LIN", "c": "CIRC"}
+
+
+def read_tp(path):
+    """As read_krl: W, P and R turn about x, y and z of the frame, in this order."""
+    text = open(path, encoding="utf-8").read()
+    pose = lambda v: of_abc(*(float(v[letter]) for letter in "XYZRPW"))
+    registers = {}
+    for register, part, value in re.findall(rf"PR\[(\d),(\d)\]=({NUMBER})", text):
+        registers.setdefault(register, {})["XYZWPR"[int(part) - 1]] = value
+    frames = dict(re.findall(r"(UTOOL|UFRAME)\[1\]=PR\[(\d)\]", text))
+    tool, base = (pose(registers[frames[name]]) for name in ("UTOOL", "UFRAME"))
+    positions = {
+        name: pose(dict(re.findall(rf"\b([XYZWPR]) *= *({NUMBER})", values)))
+        for name, values in re.findall(r"^P\[(\d+)\]\{(.*?)\};", text, re.M | re.S)
+    }
+    motions = {}
+    for found in re.finditer(r"^ *\d+:([JLC]) P\[(\d+)\](?:\s*:\s*P\[(\d+)\])?", text, re.M):
+        poses = [positions[name] for name in found.groups()[1:] if name]
+        number = text.count("\n", 0, found.start()) + 1
+        motions[number] = (WORDS[found[1].lower()], poses[-1], poses[0] if len(poses) > 1 else None)
+    return motions, tool, base
+
+
+def read_urscript(path):
+    """As read_krl: poses in metres with rotation vectors, in a frame `table`."""
+    pose = lambda text: pin.SE3(pin.exp3(np.array(numbers(text)[3:])), np.array(numbers(text)[:3]))
+    text = open(path, encoding="utf-8").read()
+    tool, base = (pose(re.search(rf"{name} ?p\[(.*?)\]", text)[1]) for name in (r"set_tcp\(", "table ="))
+    motions = {}
+    for number, line in enumerate(text.splitlines(), 1):
+        if motion := re.match(r" *move([jlc])\(", line):
+            poses = [pose(values) for values in re.findall(r"pose_trans\(table, ?p\[(.*?)\]\)", line)]
+            motions[number] = (WORDS[motion[1]], poses[-1], poses[0] if len(poses) > 1 else None)
+    return motions, tool, base
+
+
+def read_val3(path):
+    """As read_krl: the data lie beside the program; rx, ry and rz turn about the axes that were turned before."""
+
+    def pose(values):
+        x, y, z, a, b, c = values
+        turns = [pin.utils.rotate(axis, math.radians(angle)) for axis, angle in zip("xyz", (a, b, c))]
+        return pin.SE3(turns[0] @ turns[1] @ turns[2], 1e-3 * np.array([x, y, z]))
+
+    data = {}
+    for own in ElementTree.parse(Path(path).parent / "cell.dtx").iterfind(".//{*}Data"):
+        value = own.find("{*}Value")
+        data[own.get("name")] = pose([float(value.get(name, 0.0)) for name in ("x", "y", "z", "rx", "ry", "rz")])
+    motions = {}
+    for number, line in enumerate(open(path, encoding="utf-8"), 1):
+        if motion := re.match(r" *move([jlc])\((.*),tMill,mCut\)", line):
+            poses = [
+                data[point or about] * (pose(numbers(by)) if about else pin.SE3.Identity())
+                for about, by, point in re.findall(r"appro\((\w+),\{(.*?)\}\)|(\w+)", motion[2])
+            ]
+            motions[number] = (WORDS[motion[1]], poses[-1], poses[0] if len(poses) > 1 else None)
+    return motions, data["tMill"], data["fPart"]
+
+
+READERS = {"krl": read_krl, "rapid": read_rapid, "tp": read_tp, "urscript": read_urscript, "val3": read_val3}
 
 
 # --- the controller ---
@@ -377,7 +442,7 @@ def main():
         wrench = np.concatenate([asked["force_n"], asked["moment_n_m"]])
         json.dump(compare_joints(asked, arm, wrench), sys.stdout)
         return
-    read = {"krl": read_krl, "rapid": read_rapid}[asked["language"]]
+    read = READERS[asked["language"]]
     programmed, tool, base = read(asked["programmed"])
     written, same_tool, same_base = read(asked["written"])
     assert tool.isApprox(same_tool, 0.0) and base.isApprox(same_base, 0.0), "frames were changed"

@@ -30,10 +30,12 @@ mod urscript;
 #[path = "../tests/formats/val3/random.rs"]
 mod val3;
 
+use std::panic::{UnwindSafe, catch_unwind};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use harness::Kind;
+use kinetostat_testing::figure::{computed_s, peak_memory_mb};
 
 /// A language by its folder.
 type Named = (&'static str, fn() -> Kind);
@@ -66,7 +68,8 @@ fn main() -> ExitCode {
     let end = Instant::now() + Duration::from_secs_f64(60.0 * minutes);
     let (mut cases, mut read, mut failed) = (0_u64, 0, 0);
     while Instant::now() < end {
-        match harness::case(seed.wrapping_mul(1_000_003).wrapping_add(cases), kind()) {
+        let case = seed.wrapping_mul(1_000_003).wrapping_add(cases);
+        match within_bounds(case, || harness::case(case, kind())) {
             Ok(taken) => read += usize::from(taken),
             Err(what) => {
                 failed += 1;
@@ -79,5 +82,29 @@ fn main() -> ExitCode {
     match failed {
         0 => ExitCode::SUCCESS,
         _ => ExitCode::FAILURE,
+    }
+}
+
+/// Longest time of a case, s.
+const MOST_S: f64 = 10.0;
+
+/// Most memory of all cases, MB: programs of some kilobytes take a few, and those in loops have at most 200 000 motions.
+const MOST_MB: f64 = 500.0;
+
+/// The answer of a case, or a fault of one that panics, hangs or takes much memory.
+fn within_bounds(
+    case: u64,
+    run: impl FnOnce() -> Result<bool, String> + UnwindSafe,
+) -> Result<bool, String> {
+    let (wall, before) = (Instant::now(), peak_memory_mb());
+    let start = computed_s(wall);
+    let found = catch_unwind(run).unwrap_or_else(|_| Err(format!("case {case}: a panic")))?;
+    let (computed, after) = (computed_s(wall) - start, peak_memory_mb());
+    if computed > MOST_S {
+        return Err(format!("case {case}: {computed} s"));
+    }
+    match after > before && after.is_some_and(|most| most > MOST_MB) {
+        true => Err(format!("case {case}: {after:?} MB, {before:?} before it")),
+        false => Ok(found),
     }
 }

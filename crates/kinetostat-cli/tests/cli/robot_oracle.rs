@@ -46,6 +46,83 @@ const RAPID: &str = r#"MODULE Part
 ENDMODULE
 "#;
 
+/// The places of these poses, mm.
+const PLACES: [&str; 6] = [
+    "0, 0, 50",
+    "0, 0, 0",
+    "120, 40, -5",
+    "160, 60, 0",
+    "170, 110, 10",
+    "20, 120, 0",
+];
+
+/// How the tool stands there in RAPID: W, P, R of FANUC, rotation vectors of Universal Robots (rad), rx, ry, rz of Staubli.
+const TURNS: [[&str; 3]; 5] = [
+    [
+        "179.68483, 5.99175, 176.98351",
+        "0.07949692, 3.03586529, 0.00416627",
+        "-180, 6, -177",
+    ],
+    [
+        "-177.88617, 11.81504, -155.78125",
+        "-0.60965144, 2.86818452, 0.01075578",
+        "-177.05632, 11.63848, 155.69993",
+    ],
+    [
+        "-178.94409, 9.94466, -157.90813",
+        "-0.56625227, 2.91311539, 0.02262865",
+        "-177.21748, 9.60887, 157.76608",
+    ],
+    [
+        "-179.50927, 6.98286, -155.97006",
+        "-0.62799738, 2.95449543, 0.02571107",
+        "-177.59529, 6.57592, 155.86183",
+    ],
+    [
+        "179.58401, 1.95628, 161.9929",
+        "0.48600006, 3.06848358, 0.00283809",
+        "179.79086, 1.98904, -161.99637",
+    ],
+];
+
+/// `PR[8]` and `PR[9]`, which are the frame and the tool, stand before it; the positions behind it.
+const TP: &str = "  UFRAME[1]=PR[8] ;
+  UTOOL[1]=PR[9] ;
+  UFRAME_NUM=1 ;
+  UTOOL_NUM=1 ;
+J P[1] 10% FINE ;
+L P[2] 20mm/sec FINE ;
+L P[3] 20mm/sec FINE ;
+C P[4]
+    :  P[5] 20mm/sec FINE ;
+L P[6] 20mm/sec FINE ;
+";
+
+/// Poses stand for P1 to P6.
+const URSCRIPT: &str = "def part():
+  set_tcp(p[0.012, -0.008, 0.18, 0, 0, 0])
+  global table = p[1.5, 0.1, 0.7, 0, 0, 0.34906585]
+  movej(get_inverse_kin(P1), a=1.4, v=1.05)
+  movel(P2, a=1.2, v=0.02)
+  movel(P3, a=1.2, v=0.02)
+  movec(P4, P5, a=1.2, v=0.02)
+  movel(P6, a=1.2, v=0.02)
+end
+";
+
+const VAL3: &str = r#"<Programs>
+  <Program name="part">
+    <Code><![CDATA[begin
+  movej(p1,tMill,mCut)
+  movel(p2,tMill,mCut)
+  movel(p3,tMill,mCut)
+  movec(p4,p5,tMill,mCut)
+  movel(p6,tMill,mCut)
+end]]></Code>
+  </Program>
+</Programs>
+"#;
+
 /// Of the drives of an imported arm, N m/rad.
 const STIFFNESS: [f64; 6] = [3.8e6, 6.6e6, 3.9e6, 5.6e5, 6.6e5, 4.7e5];
 
@@ -60,6 +137,9 @@ const TOLERANCE_MM: f64 = 0.0005;
 enum Language {
     Krl,
     Rapid,
+    Tp,
+    Urscript,
+    Val3,
 }
 
 /// An arm, its program, and what the script is to know of both.
@@ -82,6 +162,9 @@ impl Case {
             name: match language {
                 Language::Krl => "KRL, heavy_6r",
                 Language::Rapid => "RAPID, heavy_6r",
+                Language::Tp => "TP, heavy_6r",
+                Language::Urscript => "URScript, heavy_6r",
+                Language::Val3 => "VAL3, heavy_6r",
             },
             language,
             model: "heavy_6r",
@@ -89,6 +172,9 @@ impl Case {
             text: match language {
                 Language::Krl => text(language, "X 12,Y -8,Z 180,A 0,B -90,C 0", [1500, 100, 700]),
                 Language::Rapid => text(language, "", [1500, 100, 700]),
+                Language::Tp => tp(),
+                Language::Urscript => urscript(),
+                Language::Val3 => VAL3.to_owned(),
             },
         }
     }
@@ -102,7 +188,7 @@ impl Case {
                 "joint_a",
                 [1900, 100, 600],
             ),
-            Language::Rapid => (
+            _ => (
                 "RAPID, IRB 6640",
                 "abb_irb6640.urdf",
                 "joint_",
@@ -144,6 +230,9 @@ impl Case {
         match self.language {
             Language::Krl => "part.src",
             Language::Rapid => "part.mod",
+            Language::Tp => "part.ls",
+            Language::Urscript => "part.script",
+            Language::Val3 => "part.pgx",
         }
     }
 
@@ -153,6 +242,12 @@ impl Case {
         let (language, axis, orientation) = match self.language {
             Language::Krl => ("krl", "-x", "swivel_and_turn"),
             Language::Rapid => ("rapid", "-z", "one_axis"),
+            Language::Tp => ("tp", "-z", "one_axis"),
+            Language::Urscript => ("urscript", "-z", "one_axis"),
+            Language::Val3 => {
+                std::fs::write(here.join("cell.dtx"), val3_data()).unwrap();
+                ("val3", "-z", "one_axis")
+            }
         };
         let [force, moment] = LOAD;
         // The weights of public URDFs are not those of the robots.
@@ -182,8 +277,71 @@ fn text(language: Language, tool: &str, [x, y, z]: [i32; 3]) -> String {
         Language::Krl => KRL
             .replace("TOOL}", &format!("{tool}}}"))
             .replace("X ORIGIN", &format!("X {x},Y {y},Z {z}")),
-        Language::Rapid => RAPID.replace("ORIGIN", &format!("{x},{y},{z}")),
+        _ => RAPID.replace("ORIGIN", &format!("{x},{y},{z}")),
     }
+}
+
+/// The numbers of the poses: places, and how the tool stands in a convention.
+fn poses(convention: usize) -> impl Iterator<Item = Vec<f64>> {
+    let numbers =
+        |text: &str| -> Vec<f64> { text.split(", ").map(|n| n.parse().unwrap()).collect() };
+    let turns = TURNS[..1].iter().chain(&TURNS);
+    let both = PLACES.iter().zip(turns);
+    both.map(move |(place, turn)| [numbers(place), numbers(turn[convention])].concat())
+}
+
+fn tp() -> String {
+    let mut text = "/PROG PART\n/ATTR\nDEFAULT_GROUP\t= 1,*,*,*,*;\n/MN\n".to_owned();
+    for (register, values) in [(8, [1500, 100, 700, 0, 0, 20]), (9, [12, -8, 180, 0, 0, 0])] {
+        for (part, value) in (1..).zip(values) {
+            text += &format!("   1:  PR[{register},{part}]={value} ;\n");
+        }
+    }
+    for line in TP.lines() {
+        text += &match line.starts_with("    :") {
+            true => format!("{line}\n"),
+            false => format!("   1:{line}\n"),
+        };
+    }
+    text += "/POS\n";
+    for (number, pose) in (1..).zip(poses(0)) {
+        let [x, y, z, w, p, r] = pose[..].try_into().unwrap();
+        text += &format!(
+            "P[{number}]{{\n   GP1:\n\tUF : 1, UT : 1,\t\tCONFIG : 'N U T, 0, 0, 0',\n\tX = {x:.3} mm, Y = {y:.3} mm, Z = {z:.3} mm,\n\tW = {w:.5} deg, P = {p:.5} deg, R = {r:.5} deg\n}};\n"
+        );
+    }
+    text + "/END\n"
+}
+
+fn urscript() -> String {
+    let mut text = URSCRIPT.to_owned();
+    for (number, mut pose) in (1..).zip(poses(1)) {
+        pose[..3].iter_mut().for_each(|part| *part *= 1e-3);
+        let pose = format!("pose_trans(table, p{pose:?})");
+        text = text.replace(&format!("P{number}"), &pose);
+    }
+    text
+}
+
+fn val3_data() -> String {
+    let mut text = "<Database>\n  <Datas>\n".to_owned();
+    let mut declare = |name: &str, kind: &str, value: &str| {
+        text += &format!(
+            "    <Data name=\"{name}\" type=\"{kind}\" size=\"1\">\n      <Value key=\"0\" {value} />\n    </Data>\n"
+        );
+    };
+    let frame = r#"x="1500" y="100" z="700" rz="20" fatherId="world[0]""#;
+    declare("fPart", "frame", frame);
+    let tool = r#"x="12" y="-8" z="180" fatherId="flange[0]""#;
+    declare("tMill", "tool", tool);
+    declare("mCut", "mdesc", r#"tmax="20" blend="off""#);
+    for (number, pose) in (1..).zip(poses(2)) {
+        let [x, y, z, a, b, c] = pose[..].try_into().unwrap();
+        let value =
+            format!(r#"x="{x}" y="{y}" z="{z}" rx="{a}" ry="{b}" rz="{c}" fatherId="fPart[0]""#);
+        declare(&format!("p{number}"), "pointRx", &value);
+    }
+    text + "  </Datas>\n</Database>\n"
 }
 
 /// What the script answers; `None` where Pinocchio is not installed.
@@ -303,7 +461,13 @@ fn hold(case: &Case, here: &Path) {
 
 #[test]
 fn figure_robot_programs_of_heavy_6r_agree_with_pinocchio() {
-    for language in [Language::Krl, Language::Rapid] {
+    for language in [
+        Language::Krl,
+        Language::Rapid,
+        Language::Tp,
+        Language::Urscript,
+        Language::Val3,
+    ] {
         let here = tempfile::tempdir().unwrap();
         hold(&Case::heavy(language), here.path());
     }

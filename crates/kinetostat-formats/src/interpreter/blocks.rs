@@ -260,7 +260,7 @@ impl Parser<'_, '_> {
             self.fault(start..self.at, reason, MEND_IT);
         }
         if self.at <= start {
-            self.at = start + 1;
+            self.at = self.file.tokens.len().min(start + 1);
         }
         self.at
     }

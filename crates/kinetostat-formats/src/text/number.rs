@@ -85,7 +85,8 @@ pub fn printed(
     }
     let wide = match width {
         Width::Free => 0,
-        Width::Kept => original.len(),
+        // What is printed has no wider columns.
+        Width::Kept => original.len().min(usize::from(u16::MAX)),
     };
     format!("{text:>wide$}").into_bytes()
 }

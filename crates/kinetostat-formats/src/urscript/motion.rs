@@ -66,6 +66,16 @@ impl Run<'_, '_> {
         let no_motion = || ("it is no motion".to_owned(), FORM.remedy);
         let row = motion_row(file.word(tokens.start)).ok_or_else(no_motion)?;
         let given = |name: &str| argument(row.parameters, arguments, name);
+        for value in ["A", "V", "T", "R"].into_iter().filter_map(given) {
+            let found = self.value(value);
+            if found.unknown_reason().is_none() && found.as_number().is_none() {
+                let reason = format!("`{}` is no number", file.text(&value.tokens));
+                return Err((
+                    reason,
+                    "write acceleration, speed, time and radius as numbers",
+                ));
+            }
+        }
         let last = row.parameters[row.ends - 1];
         let is_missing = || (format!("{} needs {last}", row.name), FORM.remedy);
         let end = given(last).ok_or_else(is_missing)?;

@@ -44,7 +44,7 @@ impl ProgramLanguage for Val3Language {
     }
 
     fn written(&self) -> &'static str {
-        "Written: numbers of points in place, in the data of the application; points that several motions use copied under a free name; points that are computed, or of which numbers are left out, moved by appro; further motions as movel, with the same description of speed and blending."
+        "Written: numbers of points in place, in the data of the application; points that several motions use copied under a free name; points that are computed, or of which numbers are left out, moved by appro; further motions as movel or movec, with the same description of speed and blending."
     }
 
     fn parse(&self, files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {

@@ -93,7 +93,7 @@ impl Run<'_, '_> {
             }
         };
         let keyword = file.span(&(tokens.start..tokens.start + 1));
-        let mut site = MotionSite::of(keyword, file.span(&end.tokens), own.site);
+        let mut site = MotionSite::of(keyword, self.span_of(end), own.site);
         site.via = via_site;
         site.indivisible = (kind == MotionKind::Joint).then_some("this motion cannot be divided");
         let described = self.described(description, kind == MotionKind::Joint);
@@ -171,9 +171,8 @@ impl Run<'_, '_> {
         };
         let declared = text.and_then(|text| self.declared(expression, text, &pose, &AROUND));
         let site = declared.unwrap_or_else(|| {
-            let span = file.span(&expression.tokens);
             TargetSite::Replaced(Box::new(ReplacedText {
-                span,
+                span: self.span_of(expression),
                 pose: pose.clone(),
                 parts: None,
             }))
@@ -184,6 +183,16 @@ impl Run<'_, '_> {
             site,
             frame,
         })
+    }
+
+    /// Bytes of an end, with an index 0 behind it that has no tokens.
+    fn span_of(&self, end: &Expression) -> Range<usize> {
+        let mut span = self.file().span(&end.tokens);
+        let behind = &self.file().source.bytes()[span.end..];
+        if behind.trim_ascii_start().starts_with(b"[") {
+            span.end += behind.iter().take_while(|byte| **byte != b']').count() + 1;
+        }
+        span
     }
 
     /// The numbers of a point in the data, where all stand there and a further point can be written like it.

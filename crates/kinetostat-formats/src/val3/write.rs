@@ -34,6 +34,10 @@ impl Syntax for Val3Syntax {
         true
     }
 
+    fn writes_circles(&self) -> bool {
+        true
+    }
+
     fn is_written_flat(&self) -> bool {
         true
     }
@@ -47,7 +51,10 @@ impl Syntax for Val3Syntax {
     ) -> Option<Vec<u8>> {
         let file = program.files.get(motion.file)?;
         let mut edits = Edits::default();
-        self.straighten(program, motion, &mut edits);
+        match &literals.via {
+            Some((span, via)) => edits.replace(span.clone(), via.clone()),
+            None => self.straighten(program, motion, &mut edits),
+        }
         edits.replace(motion.site.target_span.clone(), literals.end.clone());
         edits.applied_to_part(file.bytes(), &motion.span)
     }

@@ -21,6 +21,8 @@ struct Example {
     partial: &'static [usize],
     /// Ends that are stated again as they are; arcs stay.
     ends: usize,
+    /// Openings of blocks, brackets, calls and signs, each with what stands before the first of them.
+    nests: &'static [(&'static str, &'static str)],
 }
 
 impl Example {
@@ -116,6 +118,24 @@ fn one_word_again_and_again(kind: &Kind, example: &Example) {
     }
 }
 
+/// Blocks and expressions 20 000 deep, in any line of the first file: refused with bounded words, or carried as text.
+fn deep_nesting_ends_in_words(kind: &Kind, example: &Example) {
+    for (before, open) in example.nests {
+        let (name, text) = example.files[0];
+        for (end, _) in text.match_indices('\n').step_by(30) {
+            let nest = open.repeat(20_000);
+            let deep = [&text[..=end], before, &nest, &text[end..]].concat();
+            let mut files = vec![SourceFile::new(name, deep)];
+            let others = example.files[1..].iter();
+            files.extend(others.map(|(name, text)| SourceFile::new(*name, *text)));
+            if let Err(errors) = read(kind.language, files, &example.options()) {
+                let words: usize = errors.iter().map(|error| error.to_string().len()).sum();
+                assert!((1..40_000_000).contains(&words), "{open:?}: {words} bytes");
+            }
+        }
+    }
+}
+
 /// The suite for a language: its folder, and its example.
 macro_rules! conforms {
     ($($language:ident: $example:expr;)*) => {$(
@@ -149,6 +169,11 @@ macro_rules! conforms {
             fn a_word_again_and_again_ends_in_words() {
                 super::one_word_again_and_again(&kind(), &EXAMPLE);
             }
+
+            #[test]
+            fn deep_nesting_ends_in_words() {
+                super::deep_nesting_ends_in_words(&kind(), &EXAMPLE);
+            }
         }
     )*
 
@@ -170,6 +195,7 @@ conforms! {
         values: &[("diReady", 1.0)],
         partial: &[],
         ends: 16,
+        nests: &[("", "IF TRUE THEN\n"), ("", "FOR i FROM 1 TO 2 DO\n"), ("i:=", "Abs("), ("i:=", "-"), ("MoveL ", "Offs("), ("MoveL ", "["), ("", "TEST 1\nCASE 1:\n")],
     };
     krl: Example {
         files: &[
@@ -181,6 +207,7 @@ conforms! {
         values: &[],
         partial: &[49],
         ends: 16,
+        nests: &[("", "IF TRUE THEN\n"), ("", "LOOP\n"), ("count=", "("), ("count=", "ABS("), ("count=", "-"), ("LIN ", "{X "), ("count=", "row["), ("", "SWITCH 1\nCASE 1\n")],
     };
     ls: Example {
         files: &[("part.ls", include_str!("fixtures/everything.ls"))],
@@ -188,6 +215,7 @@ conforms! {
         values: &[("DI[1]", 1.0), ("R[1]", 3.0)],
         partial: &[],
         ends: 14,
+        nests: &[("", "  1:  IF (R[1]=0) THEN ;\n"), ("", "  1:  FOR R[1]=1 TO 2 ;\n"), ("", "R["), ("", "("), ("", "!")],
     };
     apt: Example {
         files: &[("part.apt", include_str!("fixtures/solidworks.apt"))],
@@ -195,6 +223,7 @@ conforms! {
         values: &[],
         partial: &[],
         ends: 6,
+        nests: &[("", "LOOPST\n"), ("", "("), ("", "/")],
     };
     poses: Example {
         files: &[("a.csv", crate::poses::TABLE)],
@@ -202,6 +231,7 @@ conforms! {
         values: &[],
         partial: &[],
         ends: 4,
+        nests: &[("", "("), ("", "\""), ("", "[")],
     };
     siemens: Example {
         files: &[("part.mpf", include_str!("fixtures/everything.mpf"))],
@@ -209,6 +239,7 @@ conforms! {
         values: &[],
         partial: &[30],
         ends: 15,
+        nests: &[("", "IF R1==1\n"), ("", "LOOP\n"), ("R1=", "("), ("R1=", "-"), ("R1=", "ABS("), ("R1=", "R[")],
     };
     heidenhain: Example {
         files: &[("part.h", include_str!("fixtures/everything.h"))],
@@ -216,6 +247,7 @@ conforms! {
         values: &[],
         partial: &[23, 24],
         ends: 10,
+        nests: &[("Q1 = ", " ("), ("Q1 = ", " -"), ("Q1 = ", " SIN "), ("", "LBL 1\n")],
     };
     urscript: Example {
         files: &[("part.script", include_str!("fixtures/everything.script"))],
@@ -223,6 +255,7 @@ conforms! {
         values: &[],
         partial: &[11, 32, 41],
         ends: 8,
+        nests: &[("", "if True:\n"), ("", "while True:\n"), ("", "def f():\n"), ("x=", "("), ("x=", "["), ("x=", "p["), ("x=", "not "), ("x=", "cos(")],
     };
     val3: Example {
         files: &[
@@ -233,5 +266,6 @@ conforms! {
         values: &[("bGo", 1.0)],
         partial: &[],
         ends: 6,
+        nests: &[("", "if true\n"), ("", "while true\n"), ("nCount=", "("), ("nCount=", "-"), ("nCount=", "abs("), ("nCount=", "nCount["), ("movel(", "appro(")],
     };
 }

@@ -111,9 +111,9 @@ fn bytes_of(files: Vec<(String, Vec<u8>)>) -> Vec<Vec<u8>> {
     files.into_iter().map(|(_, bytes)| bytes).collect()
 }
 
-/// What a frame is; why one is not known may name a line, which is another once pieces stand before it.
-fn frame_of(frame: &FrameUse) -> (&str, Option<&Isometry3<f64>>) {
-    (&frame.name, frame.known())
+/// What a frame is; its name and why it is not known may say a line, which is another once pieces stand before it.
+fn frame_of(frame: &FrameUse) -> (Option<&str>, Option<&Isometry3<f64>>) {
+    (frame.name.split(" of line ").next(), frame.known())
 }
 
 /// Corrections by chance for the motions of a program.
@@ -351,7 +351,10 @@ pub fn case(seed: u64, mut kind: Kind) -> Result<bool, String> {
     let texts = (kind.whole)(&mut chance);
     let break_it = |text: &String| broken(&mut chance, text, &kind);
     let files: Vec<Vec<u8>> = texts.iter().map(break_it).collect();
-    let at = |what: String| format!("case {seed}: {what}");
+    let at = |what: String| {
+        let text = files.concat();
+        format!("case {seed}: {what}\n{}", String::from_utf8_lossy(&text))
+    };
     let own = kind.own;
     own(&mut chance, &mut kind, &files).map_err(at)?;
     let found = check(&mut chance, &files, &kind);

@@ -105,6 +105,11 @@ impl Parser<'_, '_> {
         let Some(name) = name else {
             return self.fault(tokens, "the routine has no name", "write DEF name()");
         };
+        let closes = |at: usize| self.file.is(at, b')');
+        if !self.file.is(name_at + 1, b'(') || !(name_at + 1..tokens.end).any(closes) {
+            let reason = "the name of the routine has no brackets behind it";
+            self.fault(tokens, reason, "write DEF name()");
+        }
         let mut parameters = Vec::new();
         for at in name_at + 1..tokens.end {
             let separated = self.file.is(at - 1, b'(') || self.file.is(at - 1, b',');

@@ -8,6 +8,7 @@ use std::ops::Range;
 use crate::interpreter::token::{Line, TokenFile};
 use crate::krl::folds::folds_of;
 use crate::krl::lex::token_file;
+use crate::krl::table::only_reads;
 use crate::model::program::RobotProgram;
 use crate::text::edits::Edits;
 use crate::writing::syntax::Renamed;
@@ -21,7 +22,10 @@ pub(super) fn rename_in_folds(program: &RobotProgram, names: &[Renamed], edits: 
         .map(|(index, source)| token_file(index, source))
         .collect();
     let folds: Vec<Vec<Option<usize>>> = files.iter().map(folds_of).collect();
-    let data: Vec<PointData> = files.iter().map(point_data).collect();
+    let changed: BTreeSet<Vec<u8>> = files.iter().flat_map(perhaps_changed).collect();
+    let mut data: Vec<PointData> = files.iter().map(point_data).collect();
+    let all = data.iter_mut();
+    all.for_each(|own| own.retain(|name, _| !changed.contains(name)));
     let (mut copied, mut changed) = (BTreeSet::new(), BTreeSet::new());
     for Renamed {
         home,
@@ -113,6 +117,27 @@ fn point_data(file: &TokenFile<'_>) -> PointData {
         }
     }
     all
+}
+
+/// Names that may be those of a FDAT and stand elsewhere than behind its type, behind `FDAT_ACT=` and in functions of the
+/// controller: a copy would not change with it.
+fn perhaps_changed<'f>(file: &'f TokenFile<'_>) -> impl Iterator<Item = Vec<u8>> + use<'f> {
+    let is_read = |at: usize| {
+        at.checked_sub(2).is_some_and(|before| {
+            file.is_word(at - 1, "FDAT")
+                || file.is(at - 1, b'=') && file.is_word(before, "FDAT_ACT")
+                || file.is(at - 1, b'(') && file.name(before).is_some_and(|own| only_reads(&own))
+        })
+    };
+    let is_data = |at: &usize| {
+        file.word(*at)
+            .first()
+            .is_some_and(|first| matches!(first, b'F' | b'f'))
+    };
+    let names = (0..file.tokens.len())
+        .filter(is_data)
+        .filter(move |at| !is_read(*at));
+    names.map(|at| file.word(at).to_ascii_uppercase())
 }
 
 /// The name of a point as the pendant shows it: without the X before it.

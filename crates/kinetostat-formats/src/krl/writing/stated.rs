@@ -50,6 +50,7 @@ pub(super) fn with_stated_ends(
     for index in 0..program.motions.len() {
         stating.motion(index);
     }
+    (program.motions.iter()).for_each(|motion| stating.runs_alike(motion));
     let refused = |motion: &Motion, reason: &str| WriteError::Motion {
         file: program.files[motion.file].name().to_owned(),
         line: motion.line,
@@ -137,29 +138,48 @@ impl<'a> Stating<'a> {
             self.open.get_or_insert((motion, ONLY_SOME));
         }
         let turned = self.turns(index) || from.is_some_and(|from| self.turns(from));
-        if let Some(pose) = motion.target.pose()
-            && let Some(text) = open_text(self.program, motion, &motion.site.target)
-        {
-            self.state(index, &Open { text, pose }, own, turned);
-        }
         // Orientation on a circle follows from the ends, not from the auxiliary point.
-        if let (MotionKind::Circular { via }, Some((_, site))) = (&motion.kind, &motion.site.via)
-            && let Some(pose) = via.pose()
-            && let Some(text) = open_text(self.program, motion, site)
-        {
-            self.state(index, &Open { text, pose }, own, false);
+        for (open, turned) in open_ends(self.program, motion).zip([turned, false]) {
+            if let Some(open) = open {
+                self.state(index, &open, own, turned);
+            }
         }
+    }
+
+    /// Refuses a run that keeps other numbers than its statement states now for another run.
+    fn runs_alike(&mut self, motion: &'a Motion) {
+        for open in open_ends(self.program, motion).flatten() {
+            let Some(added) = self.stated.get(&(motion.file, open.text.place.start)) else {
+                continue;
+            };
+            let own = self.kept_numbers(motion, open.pose);
+            let differs = |(own, added): (&String, &Option<String>)| {
+                added.as_ref().is_some_and(|added| added != own)
+            };
+            if own.iter().zip(added).any(differs) {
+                self.open.get_or_insert((motion, EACH_TIME));
+            }
+        }
+    }
+
+    /// The numbers of an end as they are written where it does not state them.
+    fn kept_numbers(&self, motion: &Motion, pose: &PoseTarget) -> [String; 6] {
+        let before = (motion.follows).and_then(|from| self.program.motions.get(from));
+        let before = before.and_then(|before| before.target.pose());
+        let angles = kept_angles(&before.unwrap_or(pose).orientation);
+        std::array::from_fn(|member| {
+            trimmed(match member < 3 {
+                true => format!("{:.6}", pose.position_mm[member]),
+                false => format!("{:.8}", angles[member - 3]),
+            })
+        })
     }
 
     /// Writes those members of an end that are not stated and must be.
     fn state(&mut self, index: usize, open: &Open<'_>, own: bool, turned: bool) {
         let motion = &self.program.motions[index];
         let stated = open.text.numbers.each_ref().map(Option::is_some);
-        let before = motion
-            .follows
-            .and_then(|from| self.program.motions.get(from));
-        let before = before.and_then(|before| before.target.pose());
-        let angles = kept_angles(&before.unwrap_or(open.pose).orientation);
+        let numbers = self.kept_numbers(motion, open.pose);
         let kept = self.place_before(motion).unwrap_or(open.pose.position_mm);
         // A corrected end has all numbers of its place; of its angles all or none.
         let some_angles = stated[3..].contains(&true);
@@ -171,15 +191,10 @@ impl<'a> Stating<'a> {
             }
             (false, _) => turned || own && some_angles,
         };
-        let mut added: [Option<String>; 6] = Default::default();
-        for member in 0..6 {
-            if !stated[member] && needed(member) {
-                added[member] = Some(match member < 3 {
-                    true => trimmed(format!("{:.6}", open.pose.position_mm[member])),
-                    false => trimmed(format!("{:.8}", angles[member - 3])),
-                });
-            }
-        }
+        let mut member = 0..6;
+        let added = numbers.map(|number| {
+            (member.next()).and_then(|at| (!stated[at] && needed(at)).then_some(number))
+        });
         if added.iter().all(Option::is_none) {
             return;
         }
@@ -214,6 +229,23 @@ impl<'a> Stating<'a> {
         let written = self.program.motions.get(from)?.target.pose();
         corrected.or_else(|| written.map(|pose| pose.position_mm))
     }
+}
+
+/// The end of a motion and the auxiliary point of a circle, where they keep numbers of before.
+fn open_ends<'p>(
+    program: &'p RobotProgram,
+    motion: &'p Motion,
+) -> impl Iterator<Item = Option<Open<'p>>> + use<'p> {
+    let via = match (&motion.kind, &motion.site.via) {
+        (MotionKind::Circular { via }, Some((_, site))) => Some((via, site)),
+        _ => None,
+    };
+    let ends = [Some((&motion.target, &motion.site.target)), via];
+    ends.into_iter().map(move |end| {
+        let (target, site) = end?;
+        let (pose, text) = (target.pose()?, open_text(program, motion, site)?);
+        Some(Open { text, pose })
+    })
 }
 
 /// Text of a partial end; `None` if it is complete, or not in the statement.

@@ -238,6 +238,7 @@ fn files_that_are_none_are_refused() {
             "the routine has no end; end it with END",
         ),
         ("DEF a()\nDEF b()\nEND", 1, "the routine has no end"),
+        ("DEF a\nHALT\nEND", 1, "has no brackets behind it"),
         ("DEF ()\nEND", 1, "the routine has no name"),
         ("DEF a()\nEND\nEND", 3, "no routine is open here"),
         (

@@ -121,6 +121,10 @@ fn a_fold_that_shows_another_point_than_runs_breaks_the_check() {
     let new = format!("{0}{FAR}{0}", new_form("P2"));
     assert_eq!(checked(&old, ("P2_2", "P2_2")), Ok(()));
     assert_eq!(checked(&new, ("P2_2", "P2_2")), Ok(()));
+    // Data that the program changes stay those of both points.
+    let own = format!("FP2.TOOL_NO=1\n{old}");
+    let kept = "2:P2_2, 3:, 5:0.02, 7:CPDAT2\n$BWDSTART=FALSE\nLDAT_ACT=LCPDAT2\nFDAT_ACT=FP2\n";
+    assert_eq!(checked(&own, (kept, kept)), Ok(()));
     for (statements, change) in [
         // The name that is shown stayed, is a third one, or something else changed with it.
         (&old, ("2:P2_2", "2:P2")),

@@ -60,6 +60,10 @@ fn statements_that_move_the_tool_otherwise_are_refused_by_line() {
         ("textmsg(\"a)", "the text is not closed on its line"),
         ("if True\nend", "nothing ends the header; end it with :"),
         ("movel", "no statement is written so"),
+        (
+            "movel(p[0.1,0,0,0,0,0], p[0,0,0,0,0,0], 1.2, 0.02)",
+            "`p[0,0,0,0,0,0]` is no number",
+        ),
         ("movel(p[0.1,0,0,0,0,0]) a", "no statement is written so"),
         (
             "a_name_that_is_far_too_long_for_this_reader_and_for_everybody_else = 1",
@@ -99,6 +103,8 @@ fn ends_that_are_missing_or_too_many_are_refused() {
     );
     let loops = whole("def a():\nwhile True:\nmovel(p[1,0,0,0,0,0])\nend\n");
     assert_eq!(loops, (1, "no `end` ends it".to_owned()));
+    let scope = whole("def a():\nglobal");
+    assert_eq!(scope, (1, "no `end` ends it".to_owned()));
 }
 
 #[test]

@@ -144,6 +144,44 @@ fn pieces_stand_before_their_motion_and_circles_become_straight() {
 }
 
 #[test]
+fn circles_are_divided_into_circles() {
+    let program = program(
+        "  movel(pRow[0],tMill,mCut)\n  movec(appro(pA,{5,5,0,0,0,0}), pRow[1], tMill, mCut)",
+    );
+    let mut pieces = [at(1, [612.0, 5.0, 50.0]), at(1, [620.0, 0.0, 50.0])];
+    pieces[0].via_mm = Some(Vector3::new(611.0, 3.0, 50.0));
+    pieces[1].via_mm = Some(Vector3::new(617.0, 4.0, 50.0));
+    let texts = written(&program, &pieces);
+    let read = again(&texts);
+    assert_eq!(read.motions.len(), 3);
+    for (motion, piece) in read.motions[1..].iter().zip(pieces) {
+        let MotionKind::Circular { via } = &motion.kind else {
+            panic!("{}", texts[0])
+        };
+        let (via, end) = (via.pose().unwrap(), motion.target.pose().unwrap());
+        assert!((via.position_mm - piece.via_mm.unwrap()).norm() < 1e-3);
+        assert!((end.position_mm - piece.position_mm).norm() < 1e-3);
+    }
+}
+
+#[test]
+fn an_element_with_its_index_is_moved_by_appro() {
+    let data = DATA.replace(" z=\"50\" rx=\"180\" ry=\"0\" rz=\"-90.00\"", "");
+    let files = vec![
+        SourceFile::new(
+            "start.pgx",
+            program_of("start", "", "  movel(pA[0] ,tMill,mCut)"),
+        ),
+        SourceFile::new("cell.dtx", data_of(&data)),
+    ];
+    let program = read_val3(files, &ReadOptions::default()).unwrap();
+    let texts = written(&program, &[at(0, [600.6, 10.1, 0.2])]);
+    let line = "  movel(appro(pA[0],{0.1,0.1,0.2,0,0,0}) ,tMill,mCut)";
+    assert!(texts[0].contains(line), "{}", texts[0]);
+    assert_close(&places(&again(&texts))[0], &[600.6, 10.1, 0.2], 1e-9);
+}
+
+#[test]
 fn a_program_with_loops_is_written_flat() {
     let row = ("row", "", "  movel(pRow[nCount],tMill,mCut)");
     let files = files_with("  for nCount=0 to 1\n    call row()\n  endFor", &[row]);
