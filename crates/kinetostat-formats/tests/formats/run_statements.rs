@@ -57,7 +57,7 @@ const CASES: [Case; 5] = [
 #[test]
 fn statements_have_the_values_of_their_run() {
     for (language, text, wanted) in CASES {
-        let name = format!("a.{}", endings_of(language)[0]);
+        let name = format!("a.{}", language.endings()[0]);
         let read = read(
             language,
             vec![SourceFile::new(name, text)],

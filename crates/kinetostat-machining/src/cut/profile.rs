@@ -159,6 +159,12 @@ impl ForceAlongPath {
         value.map_or_else(Wrench::zero, |value| Wrench(value.into()))
     }
 
+    /// Shares inside a move at which the load has another slope.
+    #[must_use]
+    pub fn breaks(&self, move_index: usize) -> Vec<f64> {
+        self.of_load().0.profile.breaks(move_index).collect()
+    }
+
     /// The vertices of the load, and the axes of its wrenches.
     pub(crate) fn of_load(&self) -> (&Vertices, CutAxes) {
         match &self.in_part {
