@@ -122,7 +122,7 @@ fn one_word_again_and_again(kind: &Kind, example: &Example) {
 fn deep_nesting_ends_in_words(kind: &Kind, example: &Example) {
     for (before, open) in example.nests {
         let (name, text) = example.files[0];
-        for (end, _) in text.match_indices('\n').step_by(30) {
+        for (end, _) in text.match_indices('\n').step_by(40) {
             let nest = open.repeat(20_000);
             let deep = [&text[..=end], before, &nest, &text[end..]].concat();
             let mut files = vec![SourceFile::new(name, deep)];
