@@ -341,7 +341,9 @@ def test_a_stopped_run_loses_no_finished_chunk(tmp_path: Path, where: str, numbe
     with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={"PYTHONPATH": paths}, start_new_session=True) as run:
         assert run.stdout is not None
         run.stdout.readline()
-        while not (out / "chunks").exists() or len(list((out / "chunks").iterdir())) < 6:
+        # A chunk counts once the journal has its line, which is written behind its file.
+        journal = out / "journal.jsonl"
+        while not journal.exists() or journal.read_text().count("sha256") < 6:
             time.sleep(0.01)
         run.send_signal(number)
         run.wait(timeout=60)
