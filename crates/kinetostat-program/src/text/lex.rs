@@ -138,6 +138,9 @@ fn begins_with_a_word(text: &[u8]) -> bool {
 
 /// True if a comment of the line goes on behind its first `)`.
 pub(crate) fn has_comment_within(line: &[u8]) -> bool {
+    if line.iter().filter(|byte| **byte == b')').count() < 2 {
+        return false;
+    }
     let mut tokens: Vec<Spanned> = Vec::new();
     tokens_of(line, &mut tokens);
     tokens.iter().any(|one| {

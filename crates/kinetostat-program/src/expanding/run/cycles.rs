@@ -23,7 +23,7 @@ pub(crate) enum InCycle {
 impl Runner<'_> {
     /// Holds M29 back until a tap writes it; gives the rest of its block.
     pub fn hold_rigid(&mut self, text: &[u8]) -> Option<Vec<u8>> {
-        if self.options.dialect == Dialect::LinuxCnc || !text.contains(&b'9') {
+        if self.options.dialect == Dialect::LinuxCnc || !text.windows(2).any(|two| two == b"29") {
             return None;
         }
         let (rigid, rest) = Rigid::of(text)?;

@@ -51,7 +51,7 @@ impl Words {
 impl Runner<'_> {
     /// Modes beside G52 (and G15, which ends polar coordinates), which hold before it; then G52 with its axes.
     pub fn beside_shift(&self, text: &[u8]) -> Option<[Vec<u8>; 2]> {
-        if !text.contains(&b'2') {
+        if !text.windows(2).any(|two| two == b"52") {
             return None;
         }
         let mut tokens: Vec<Spanned> = Vec::new();
