@@ -69,7 +69,6 @@ fn of_gcode(words: &[BlockWord]) -> Vec<(Kind, String)> {
             ("G", "4") => (Kind::Other, &["P", "X", "U", "S"]),
             ("G", number) if IN_PATH.contains(&number) => return None,
             ("G", _) if work_offset(&word.text).is_some() => (Kind::Frame, &[]),
-            ("M", "99") => (Kind::Endless, &["P"]),
             ("M", number) if number.len() > 1 => (Kind::Other, &["P", "Q"]),
             ("G" | "M", _) => (Kind::Other, &[]),
             // H names a tool, too, where no T does.
