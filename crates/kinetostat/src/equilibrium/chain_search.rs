@@ -17,6 +17,7 @@ use crate::continuation::tracing::state_distance::wrapped;
 use crate::continuation::tracing::system::Corrected;
 use crate::equilibrium::bounds::Bounds;
 use crate::equilibrium::chain_starts::{around, spread, structured};
+use crate::equilibrium::inner_motion::places_without_work;
 use crate::equilibrium::search::{Entry, SearchOutcome, Searched};
 use crate::error::Result;
 use crate::linalg::saddle::{Saddle, pseudo_inverse};
@@ -365,8 +366,12 @@ impl Searched for ChainSearch<'_, '_, '_> {
     fn suggested(&mut self, known: &Known) -> Vec<Vec<f64>> {
         let from = &known.equilibrium.coordinates;
         let more = around(&known.equilibrium, self.chain()).into_iter();
-        more.map(|x| self.system.strained_coordinates(from, x))
-            .collect()
+        let mut starts: Vec<_> = more
+            .map(|x| self.system.strained_coordinates(from, x))
+            .collect();
+        let turns = self.scaled_turns();
+        starts.extend(places_without_work(&mut self.system, &known.z, &turns));
+        starts
     }
 
     fn spread(&mut self, from: usize, count: usize) -> Vec<Vec<f64>> {

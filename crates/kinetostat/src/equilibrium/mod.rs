@@ -21,6 +21,7 @@ pub(crate) mod critical_tangent;
 pub(crate) mod descent;
 pub(crate) mod found;
 pub(crate) mod held_machine;
+pub(crate) mod inner_motion;
 pub(crate) mod limb_shapes;
 pub(crate) mod machine_search;
 pub(crate) mod no_equilibrium;

@@ -28,6 +28,19 @@ fn two_z_chains_have_the_product_of_their_shapes() {
     assert_eq!(check(&two_z_chains(0.2)), Some(8));
 }
 
+/// Two minima with a maximum on either way between them, which hardly any start finds.
+#[test]
+fn maxima_between_two_minima_are_found() {
+    let limb = ThreeLinks {
+        links: [0.43324, 0.30651, 0.31551],
+        stiffness: [0.40759, 1.77783],
+        rest: [0.1942, 0.58557],
+        span: 0.44943,
+        direction: -0.8974,
+    };
+    assert_eq!(check(&[limb.clone(), limb]), Some(16));
+}
+
 /// Figure 5.2 of the report, its tool let go under a force: energies and how many shapes have them.
 #[test]
 fn a_loaded_machine_has_no_shape_twice() {
