@@ -85,12 +85,17 @@ pub trait ProgramLanguage: Sync {
         Vec::new()
     }
 
-    /// Files that belong to one of a program, of those in its folder: the data of the same name.
+    /// Files that belong to one of a program, of those in its folder: the data of the same name, and what a robot's program calls.
     fn files_beside(&self, file: &SourceFile, folder: &[String]) -> Vec<String> {
         let stem = file.name().rsplit_once('.').map_or("", |(stem, _)| stem);
         let data = self.data_ending().map(|data| format!("{stem}.{data}"));
-        data.filter(|name| folder.contains(name))
-            .into_iter()
+        let called = match self.is_of_robot() {
+            true => self.called_files(file),
+            false => Vec::new(),
+        };
+        let is_called = |own: &&String| called.iter().any(|name| name.eq_ignore_ascii_case(own));
+        let data = data.filter(|name| folder.contains(name)).into_iter();
+        data.chain(folder.iter().filter(is_called).cloned())
             .collect()
     }
 

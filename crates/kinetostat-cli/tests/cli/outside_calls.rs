@@ -209,3 +209,35 @@ fn a_unit_that_no_word_states_is_an_assumption() {
     );
     assert_eq!(of("G21 G90 F300\nG0 X0 Y0 Z0\nG1 X5\n"), None);
 }
+
+/// A program of that name lies beside: it is what is called.
+#[test]
+fn what_a_file_beside_holds_is_read() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    put(here, " 1:CALL GROOVE(2) ;\n", "");
+    let groove = program("").replace("MILLX", "GROOVE");
+    let (head, places) = groove.split_once("/MN").unwrap();
+    let places = places.split_once("/POS").unwrap().1;
+    let text = format!("{head}/MN\n 1:L P[AR[1]] 20mm/sec FINE ;\n/POS{places}");
+    std::fs::write(here.join("groove.ls"), text).unwrap();
+    let said = run(here, &["deflect", "job.toml"]);
+    assert!(said.code != 0 && said.err.contains("--expand"), "{said:?}");
+    let said = run(here, &["deflect", "job.toml", "--expand"]);
+    assert!(said.code == 0 && !said.out.contains(TAKEN), "{said:?}");
+    assert!(
+        said.out
+            .contains("path at feed                         110.00 mm"),
+        "{said:?}"
+    );
+    let said = run(
+        here,
+        &["compensate", "job.toml", "--expand", "--out", "flat.ls"],
+    );
+    assert!(said.code == 0 || said.code == 4, "{said:?}");
+    let said = run(
+        here,
+        &["verify", "flat.ls", "--job", "job.toml", "--expand"],
+    );
+    assert!(said.code == 0 || said.code == 4, "{said:?}");
+}

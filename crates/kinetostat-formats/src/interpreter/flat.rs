@@ -25,7 +25,7 @@ use crate::text::source::SourceFile;
 impl<D: Dialect> Run<'_, '_, D> {
     /// A motion that ran.
     pub(crate) fn log_motion(&mut self, tokens: &Range<usize>) {
-        if self.log.is_none() || self.here.is_none() {
+        if self.log.is_none() {
             return;
         }
         let file = self.file();
@@ -214,7 +214,7 @@ impl<D: Dialect> Run<'_, '_, D> {
             return;
         }
         match &expression.node {
-            Node::Call(_, arguments) if !is_computed => {
+            Node::Call(_, arguments) if !is_computed && !self.acts_in_call(expression) => {
                 let values = arguments
                     .iter()
                     .filter_map(|argument| argument.value.as_ref());
@@ -292,13 +292,21 @@ impl<D: Dialect> Run<'_, '_, D> {
             Node::List(parts) => parts.iter().any(|part| self.is_own(part)),
             Node::Members(members) => members.iter().any(|(_, part)| self.is_own(part)),
             Node::Two(_, operands) => operands.iter().any(|part| self.is_own(part)),
-            Node::Call(_, arguments) => (arguments.iter())
-                .filter_map(|argument| argument.value.as_ref())
-                .any(|part| self.is_own(part)),
+            Node::Call(_, arguments) => {
+                let values = arguments.iter();
+                let mut values = values.filter_map(|argument| argument.value.as_ref());
+                self.acts_in_call(expression) || values.any(|part| self.is_own(part))
+            }
             Node::Number(_) | Node::Truth(_) | Node::Text | Node::Choice(_) | Node::Unreadable => {
                 false
             }
         }
+    }
+
+    /// True for the call of a function whose statements have been written.
+    fn acts_in_call(&self, expression: &Expression) -> bool {
+        let key = (self.calls.len(), self.file().index, expression.tokens.start);
+        self.calls_that_act.contains(&key)
     }
 
     fn means_another_in_main(&self, name: &Name) -> bool {

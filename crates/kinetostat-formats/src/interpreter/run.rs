@@ -339,6 +339,8 @@ pub(crate) struct Run<'r, 'p, D> {
     pub(crate) log: Option<Vec<Logged>>,
     /// Results of functions in the statement that runs, by the depth of the call, the file and the token.
     pub(crate) results: BTreeMap<(usize, usize, usize), Datum>,
+    /// Such functions whose statements stand in the flat program: their calls do not.
+    pub(crate) calls_that_act: BTreeSet<(usize, usize, usize)>,
     /// Places from which routines were called.
     pub(crate) call_sites: BTreeMap<usize, BTreeSet<(usize, usize)>>,
     /// The routine of each motion.
@@ -386,6 +388,7 @@ impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
             ran_beside: Vec::new(),
             log: None,
             results: BTreeMap::new(),
+            calls_that_act: BTreeSet::new(),
             call_sites: BTreeMap::new(),
             routines: Vec::new(),
             repeated_motions: 0,

@@ -515,7 +515,12 @@ impl<D: Dialect> Names for Run<'_, '_, D> {
         if let Scope::Routine(from) = self.scope
             && let Some(called) = self.symbols.routine(from, name)
         {
+            let lines = |run: &Self| run.log.as_ref().map_or(0, Vec::len);
+            let before = lines(self);
             let result = self.call_function(called, arguments, &whole.tokens);
+            if lines(self) > before {
+                self.calls_that_act.insert(key);
+            }
             self.results.insert(key, result.clone());
             return result;
         }

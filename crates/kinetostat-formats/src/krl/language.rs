@@ -12,7 +12,7 @@ use crate::model::program::RobotProgram;
 use crate::model::stated_arm::StatedArm;
 use crate::model::target::Configuration;
 use crate::options::{ReadOptions, WriteOptions};
-use crate::program_language::{ProgramLanguage, WrittenFile, of_run};
+use crate::program_language::{ProgramLanguage, WrittenFile, of_run, with_ending};
 use crate::refused_run::RefusedRun;
 use crate::table::StatementRow;
 use crate::text::flat::FlatText;
@@ -90,6 +90,10 @@ impl ProgramLanguage for KrlLanguage {
 
     fn stays_beside_flat(&self, file: &SourceFile) -> bool {
         is_data_list(file)
+    }
+
+    fn called_files(&self, file: &SourceFile) -> Vec<String> {
+        with_ending(names_before_brackets(file.bytes()), "src")
     }
 
     fn held_word(&self) -> Option<&'static str> {
@@ -280,4 +284,22 @@ impl ProgramLanguage for KrlLanguage {
         let first = words.first();
         first.is_some_and(|first| opening.contains(&first.as_str()))
     }
+}
+
+/// Names before an opening bracket, which calls have, and arrays as well.
+fn names_before_brackets(bytes: &[u8]) -> Vec<String> {
+    let lines = bytes.split(|byte| *byte == b'\n');
+    let code = lines.filter_map(|line| line.split(|byte| *byte == b';').next());
+    let before = code.flat_map(|code| {
+        let parts: Vec<&[u8]> = code.split(|byte| *byte == b'(').collect();
+        parts[..parts.len() - 1].to_vec()
+    });
+    let names = before.filter_map(|part| {
+        let is_part = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'$');
+        part.trim_ascii_end().rsplit(|byte| !is_part(byte)).next()
+    });
+    let names = names.filter(|name| !name.is_empty());
+    names
+        .map(|name| String::from_utf8_lossy(name).into_owned())
+        .collect()
 }

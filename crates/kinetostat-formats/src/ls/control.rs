@@ -3,6 +3,7 @@
 use crate::interpreter::expression::Expression;
 use crate::interpreter::operation::same;
 use crate::interpreter::value::{Datum, Value};
+use crate::ls::flat::FlatLines;
 use crate::ls::motion::MotionText;
 use crate::ls::passing::Open;
 use crate::ls::program::label_of;
@@ -30,6 +31,10 @@ impl Run<'_, '_> {
                 break Flow::Returns;
             };
             self.statements += 1;
+            if self.flat.as_ref().is_some_and(FlatLines::is_full) {
+                self.not_flat(at, "it has more than 5 million lines, or 256 MiB");
+                break Flow::Ends;
+            }
             if self.statements > MOST_STATEMENTS {
                 let reason = "the program runs more than 5 million statements up to here";
                 let remedy = "end its loop, or read the part that cuts by itself";
@@ -60,6 +65,7 @@ impl Run<'_, '_> {
                 | Step::Carried
         ) {
             self.log(at);
+            self.write_action(at);
         }
         match step {
             Step::Motion(text) => return self.motion(at, text),
@@ -92,7 +98,12 @@ impl Run<'_, '_> {
             // Other lines than the first run with it.
             Step::Case(own) if own.subject.is_some() => return self.select(at, own),
             Step::Wait(condition) => self.wait(condition),
-            Step::End => return Flow::Returns,
+            Step::End => {
+                if self.calls.len() == 1 {
+                    self.write_action(at);
+                }
+                return Flow::Returns;
+            }
             Step::Abort => return Flow::Ends,
             Step::Run => {
                 self.find(at, "another task starts: it is not followed");
@@ -143,6 +154,7 @@ impl Run<'_, '_> {
         };
         let Some(called) = name.as_ref().and_then(|name| self.all.named(name)) else {
             self.log(at);
+            self.write_action(at);
             if self.calls.iter().any(|called| !called.counters.is_empty()) {
                 self.find(
                     at,
@@ -198,7 +210,7 @@ impl Run<'_, '_> {
                 .as_ref()
                 .is_none_or(|value| same(&subject.value, &value.value))
             {
-                return match self.step(at, &case.action) {
+                return match self.step(at + number, &case.action) {
                     Flow::Next => Flow::To(last),
                     flow => flow,
                 };
@@ -221,6 +233,7 @@ impl Run<'_, '_> {
         };
         self.decided += 1;
         self.put(&counter, Datum::number(first));
+        self.write_counter(at, &counter, first);
         let runs = match header.is_down {
             true => first >= last,
             false => first <= last,
@@ -263,6 +276,9 @@ impl Run<'_, '_> {
             }
             return Flow::Next;
         }
+        if let Some(counter) = self.name_of(&text.counter) {
+            self.write_counter(at, &counter, number + step);
+        }
         self.store(&text.counter, Datum::number(number + step));
         Flow::To(header + 1)
     }
@@ -275,6 +291,7 @@ impl Run<'_, '_> {
             modal: self.modal,
             motions: self.motions.len(),
             beside: self.ran_beside.len(),
+            flat: self.flat.as_ref().map_or([0; 2], FlatLines::extent),
         };
         let Some(called) = self.calls.last_mut() else {
             return false;
@@ -284,8 +301,8 @@ impl Run<'_, '_> {
             before.decided == now.decided
                 || (before.values == now.values && before.modal == now.modal)
         };
-        let (before, beside) = match called.passes.get(&at) {
-            Some(before) if is_same(before) => (before.motions, before.beside),
+        let (before, beside, flat) = match called.passes.get(&at) {
+            Some(before) if is_same(before) => (before.motions, before.beside, before.flat),
             _ => {
                 called.passes.insert(at, now);
                 return false;
@@ -299,6 +316,9 @@ impl Run<'_, '_> {
         };
         if first.len() == again.len() && first.iter().zip(again).all(is_again) {
             self.motions.truncate(before);
+            if let Some(lines) = &mut self.flat {
+                lines.cut(flat);
+            }
             for motion in &mut self.motions[before - count..] {
                 if motion.runs < Runs::Repeatedly {
                     motion.runs = Runs::Repeatedly;
@@ -323,6 +343,7 @@ impl Run<'_, '_> {
                 return Flow::Ends;
             }
         }
+        self.write_action(at);
         match self.motion_of(at, text, None) {
             Ok(mut motion) => {
                 motion.runs = self.runs;

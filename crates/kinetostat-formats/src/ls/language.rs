@@ -1,7 +1,10 @@
 //! Facts and acts of FANUC TP programs that files outside this folder ask for.
 
 use crate::error::WriteError;
+use crate::ls::flat::expand_ls;
+use crate::ls::lines::Layout;
 use crate::ls::reader::parse_ls;
+use crate::ls::step::{Step, step_of};
 use crate::ls::table::{IN_MOTIONS, LS_STATEMENTS, MODES};
 use crate::ls::write::{numbered_again, write_ls};
 use crate::model::motion::Motion;
@@ -11,8 +14,10 @@ use crate::model::program::RobotProgram;
 use crate::model::stated_arm::StatedArm;
 use crate::model::target::Configuration;
 use crate::options::{ReadOptions, WriteOptions};
-use crate::program_language::{ProgramLanguage, WrittenFile};
+use crate::program_language::{ProgramLanguage, WrittenFile, of_run, with_ending};
+use crate::refused_run::RefusedRun;
 use crate::table::StatementRow;
+use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 use crate::writing::piece::Piece;
 
@@ -61,6 +66,24 @@ impl ProgramLanguage for LsLanguage {
         write_ls(program, pieces, options)
     }
 
+    fn expand(
+        &self,
+        files: &[SourceFile],
+        options: &ReadOptions,
+    ) -> Result<Option<FlatText>, RefusedRun> {
+        of_run(expand_ls(files, options))
+    }
+
+    fn called_files(&self, file: &SourceFile) -> Vec<String> {
+        let lines = Layout::of(file.bytes()).lines.into_iter();
+        let names = lines.filter_map(|line| match step_of(file.bytes(), &line.text).action() {
+            Step::Call(call) => call.name.clone(),
+            _ => None,
+        });
+        let names = names.map(|name| String::from_utf8_lossy(file.part(&name)).into_owned());
+        with_ending(names.collect(), "LS")
+    }
+
     fn held_word(&self) -> Option<&'static str> {
         Some("/PROG")
     }
@@ -99,6 +122,11 @@ impl ProgramLanguage for LsLanguage {
 
     fn numbered_again(&self, program: &[u8]) -> Option<Vec<u8>> {
         numbered_again(program)
+    }
+
+    /// No remark stands behind an instruction.
+    fn takes_origin(&self, _line: &[u8]) -> bool {
+        false
     }
 
     fn orientation_of_controller(&self) -> Option<OrientationText> {

@@ -11,6 +11,7 @@
 pub(crate) mod configuration;
 mod control;
 mod expression;
+mod flat;
 mod found;
 mod instructions;
 pub(crate) mod language;

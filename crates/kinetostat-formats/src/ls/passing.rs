@@ -59,7 +59,7 @@ impl<'p> Run<'_, 'p> {
         let acts = steps.iter().any(|(.., step)| self.acts(step));
         let own = steps.iter().filter(|(own, ..)| *own == self.program());
         let passed: BTreeSet<usize> = own.map(|(_, at, _)| *at).chain([at]).collect();
-        passed.into_iter().for_each(|at| self.log(at));
+        self.pass(at, &open, passed);
         self.lose(&steps);
         if acts {
             let why = why.unknown_reason();
@@ -71,6 +71,23 @@ impl<'p> Run<'_, 'p> {
             }
         }
         Flow::To(open.to)
+    }
+
+    /// Notes the steps that are passed over; of a flat program they are lines, with what ends them.
+    fn pass(&mut self, at: usize, open: &Open<'_>, passed: BTreeSet<usize>) {
+        let steps = &self.all.programs[self.program()].steps;
+        let is_still =
+            |of: usize| matches!(steps[of], Step::Label(_) | Step::Carried | Step::Wait(_));
+        if (open.from..at).any(|of| !is_still(of)) {
+            self.not_flat(at, "the controller decides how often a loop runs");
+        }
+        for of in passed {
+            self.log(of);
+            self.write_whole(of);
+        }
+        if open.to > at + 1 && matches!(steps.get(open.to), Some(Step::EndIf | Step::Label(_))) {
+            self.write_whole(open.to);
+        }
     }
 
     /// Actions of the open steps, and of the programs that they call.

@@ -52,6 +52,28 @@ pub fn read_ls(
 
 /// Reads all that can be read of FANUC TP programs.
 pub(crate) fn parse_ls(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
+    let read = with_run(&files, options, |run| {
+        let run = run.whole();
+        Read {
+            motions: run.motions,
+            declarations: run.reader.declarations,
+            findings: run.reader.findings,
+            outside_calls: run.outside_calls,
+            ran: run.ran_beside,
+            faults: run.reader.faults,
+            external_axes_may_move: options.external_axes != ExternalAxes::Refused,
+            moving_calls: &options.moving_calls,
+        }
+    });
+    Parsed::of_robot(Language::FanucLs, files, read)
+}
+
+/// Gives a run that has not begun to a function.
+pub(super) fn with_run<T>(
+    files: &[SourceFile],
+    options: &ReadOptions,
+    with: impl FnOnce(Run<'_, '_>) -> T,
+) -> T {
     let mut reader = Reader {
         options,
         faults: Vec::new(),
@@ -71,23 +93,12 @@ pub(crate) fn parse_ls(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed 
         positions.push(found);
     }
     let all = Files {
-        names: reader.names_of(&files, &layouts),
-        files: &files,
+        names: reader.names_of(files, &layouts),
+        files,
         layouts: &layouts,
         programs: &programs,
         positions: &positions,
     };
     let outside_calls = all.outside_calls();
-    let run = Run::new(reader, &all, outside_calls).whole();
-    let read = Read {
-        motions: run.motions,
-        declarations: run.reader.declarations,
-        findings: run.reader.findings,
-        outside_calls: run.outside_calls,
-        ran: run.ran_beside,
-        faults: run.reader.faults,
-        external_axes_may_move: options.external_axes != ExternalAxes::Refused,
-        moving_calls: &options.moving_calls,
-    };
-    Parsed::of_robot(Language::FanucLs, files, read)
+    with(Run::new(reader, &all, outside_calls))
 }

@@ -6,6 +6,7 @@ use nalgebra::Isometry3;
 
 use crate::interpreter::stated::StatedValues;
 use crate::interpreter::value::Datum;
+use crate::ls::flat::FlatLines;
 use crate::ls::found::Reader;
 use crate::ls::lines::Layout;
 use crate::ls::motion::End;
@@ -91,6 +92,8 @@ pub(super) struct Pass {
     pub modal: Modal,
     pub motions: usize,
     pub beside: usize,
+    /// Bytes and lines of the flat program.
+    pub flat: [usize; 2],
 }
 
 /// A call that runs.
@@ -143,6 +146,8 @@ pub(super) struct Run<'o, 'p> {
     pub repeated_motions: usize,
     /// Statements beside the motions that ran.
     pub ran_beside: Vec<RanStatement>,
+    /// Lines that ran, where the program is to be written flat.
+    pub flat: Option<FlatLines>,
     pub statements: usize,
     /// Conditions whose values are known, so far.
     pub decided: usize,
@@ -178,6 +183,7 @@ impl<'o, 'p> Run<'o, 'p> {
             taught: reader.declarations.len(),
             repeated_motions: 0,
             ran_beside: Vec::new(),
+            flat: None,
             statements: 0,
             decided: 0,
             noted: BTreeSet::new(),
@@ -225,7 +231,8 @@ impl<'o, 'p> Run<'o, 'p> {
         }
     }
 
-    fn called_by_name(&self) -> BTreeSet<usize> {
+    /// Programs that another one calls.
+    pub(super) fn called_by_name(&self) -> BTreeSet<usize> {
         let all = self.all.programs.iter().zip(self.all.files);
         all.flat_map(|(program, file)| {
             program.steps.iter().filter_map(|step| match step.action() {

@@ -195,36 +195,38 @@ const DEEPEST: usize = 4;
 
 /// Conditional action: the text after the first comma outside of brackets.
 fn perhaps(bytes: &[u8], span: &Range<usize>, depth: usize) -> Step {
+    let Some(comma) = comma_in(bytes, span).filter(|_| depth < DEEPEST) else {
+        return Step::Refused((
+            "what it does on its condition is not known",
+            "write it as the controller prints it",
+        ));
+    };
+    let behind = &bytes[comma + 1..span.end];
+    let blanks = behind.len() - behind.trim_ascii_start().len();
+    match inner(bytes, comma + 1 + blanks..span.end, depth + 1) {
+        step @ Step::Refused(_) => step,
+        Step::If(_)
+        | Step::Else
+        | Step::EndIf
+        | Step::For(_)
+        | Step::EndFor
+        | Step::Case(_)
+        | Step::Label(_) => Step::Refused(UNKNOWN),
+        step => on_condition(bytes, span.start..comma, step),
+    }
+}
+
+/// The first comma outside of brackets: an action on a condition stands behind it.
+pub(super) fn comma_in(bytes: &[u8], span: &Range<usize>) -> Option<usize> {
     let mut open = 0_i32;
-    for at in span.clone() {
-        match bytes[at] {
+    span.clone().find(|at| {
+        match bytes[*at] {
             b'[' | b'(' => open += 1,
             b']' | b')' => open -= 1,
-            b',' if open == 0 && depth < DEEPEST => {
-                let blanks = bytes[at + 1..span.end]
-                    .iter()
-                    .take_while(|byte| byte.is_ascii_whitespace())
-                    .count();
-                let step = inner(bytes, at + 1 + blanks..span.end, depth + 1);
-                return match step {
-                    Step::Refused(_) => step,
-                    Step::If(_)
-                    | Step::Else
-                    | Step::EndIf
-                    | Step::For(_)
-                    | Step::EndFor
-                    | Step::Case(_)
-                    | Step::Label(_) => Step::Refused(UNKNOWN),
-                    step => on_condition(bytes, span.start..at, step),
-                };
-            }
             _ => {}
         }
-    }
-    Step::Refused((
-        "what it does on its condition is not known",
-        "write it as the controller prints it",
-    ))
+        bytes[*at] == b',' && open == 0
+    })
 }
 
 fn on_condition(bytes: &[u8], before: Range<usize>, action: Step) -> Step {

@@ -82,7 +82,7 @@ pub(crate) fn numbered_again(bytes: &[u8]) -> Option<Vec<u8>> {
 }
 
 /// A program whose lines are numbered one after another.
-fn numbered(bytes: &[u8], layout: &Layout, added: f64) -> Option<Vec<u8>> {
+pub(super) fn numbered(bytes: &[u8], layout: &Layout, added: f64) -> Option<Vec<u8>> {
     let mut edits = Edits::default();
     if let Some(count) = &layout.line_count {
         edits.replace(count.span.clone(), format!("{}", count.value + added));

@@ -58,7 +58,7 @@ fn in_another_file(program: &RobotProgram) -> Option<PathError> {
         "motions stand in this file and in {}",
         program.files[file].name()
     );
-    let remedy = "give the files with motions one by one";
+    let remedy = "run the program once and write it flat (--expand), or give the files with motions one by one";
     Some(fault_at(program, other, reason, remedy))
 }
 

@@ -23,6 +23,8 @@ struct Example {
     ends: usize,
     /// Openings of blocks, brackets, calls and signs, each with what stands before the first of them.
     nests: &'static [(&'static str, &'static str)],
+    /// It can be written flat.
+    is_flat: bool,
 }
 
 impl Example {
@@ -97,6 +99,61 @@ fn random(check: impl Fn(u64) -> Result<(), String>) {
     found.unwrap_or_else(|error| panic!("{error}"));
 }
 
+/// Run once and written flat, a program goes through the same places, each statement once.
+fn flat_programs_go_the_same_way(kind: &Kind, example: &Example) {
+    let way = |program: &RobotProgram| -> Vec<String> {
+        let motions = program.motions.iter();
+        let main = motions.filter(|motion| motion.runs != Runs::Elsewhere);
+        let ends = main.map(|motion| {
+            let place = motion.base_pose().map(|pose| {
+                let numbers = pose.to_homogeneous();
+                numbers.map(|number| (1e6 * number).round() as i64)
+            });
+            format!("{place:?} {:?} {:?}", motion.zone, motion.speed.mm_per_s)
+        });
+        ends.collect()
+    };
+    let same = |files: Vec<SourceFile>, options: &ReadOptions| -> Result<bool, String> {
+        let said = |errors: Vec<ProgramError>| format!("{errors:?}");
+        let program = read(kind.language, files.clone(), options).map_err(said)?;
+        let Ok(Some(flat)) = expand(kind.language, files.clone(), options) else {
+            return Ok(false);
+        };
+        let text = String::from_utf8_lossy(flat.file.bytes()).into_owned();
+        let first = files[0].clone();
+        let beside = files[1..]
+            .iter()
+            .filter(|file| stays_beside_flat(kind.language, file));
+        let files = std::iter::once(flat.file).chain(beside.cloned()).collect();
+        let again = read(kind.language, files, options).map_err(|errors| {
+            format!(
+                "{errors:?}\n{text}\n----\n{}",
+                String::from_utf8_lossy(first.bytes())
+            )
+        })?;
+        match way(&program) == way(&again) {
+            true => Ok(true),
+            false => Err(format!(
+                "{:#?}\n{:#?}\n{text}\n----\n{}",
+                way(&program),
+                way(&again),
+                String::from_utf8_lossy(first.bytes())
+            )),
+        }
+    };
+    let files = (example.files.iter()).map(|(name, text)| SourceFile::new(*name, *text));
+    let is_flat = same(files.collect(), &example.options()).unwrap();
+    random(|seed| {
+        let texts = (kind.whole)(&mut harness::Chance::new(seed)).into_iter();
+        let files = kind.names.iter().zip(texts);
+        let files = files
+            .map(|(name, text)| SourceFile::new(*name, text))
+            .collect();
+        same(files, &kind.options).map(|_| ())
+    });
+    assert_eq!(is_flat, example.is_flat);
+}
+
 /// A word that stands ten thousand times in a program: it is read, or refused with bounded words.
 fn one_word_again_and_again(kind: &Kind, example: &Example) {
     let more = ["(", "[", "{", "-", "IF ", "9", "\"", "\n"];
@@ -166,6 +223,11 @@ macro_rules! conforms {
             }
 
             #[test]
+            fn flat_programs_go_the_same_way() {
+                super::flat_programs_go_the_same_way(&kind(), &EXAMPLE);
+            }
+
+            #[test]
             fn a_word_again_and_again_ends_in_words() {
                 super::one_word_again_and_again(&kind(), &EXAMPLE);
             }
@@ -196,6 +258,7 @@ conforms! {
         partial: &[],
         ends: 16,
         nests: &[("", "IF TRUE THEN\n"), ("", "FOR i FROM 1 TO 2 DO\n"), ("i:=", "Abs("), ("i:=", "-"), ("MoveL ", "Offs("), ("MoveL ", "["), ("", "TEST 1\nCASE 1:\n")],
+        is_flat: true,
     };
     krl: Example {
         files: &[
@@ -208,6 +271,7 @@ conforms! {
         partial: &[49],
         ends: 16,
         nests: &[("", "IF TRUE THEN\n"), ("", "LOOP\n"), ("count=", "("), ("count=", "ABS("), ("count=", "-"), ("LIN ", "{X "), ("count=", "row["), ("", "SWITCH 1\nCASE 1\n")],
+        is_flat: true,
     };
     ls: Example {
         files: &[("part.ls", include_str!("fixtures/everything.ls"))],
@@ -216,6 +280,7 @@ conforms! {
         partial: &[],
         ends: 14,
         nests: &[("", "  1:  IF (R[1]=0) THEN ;\n"), ("", "  1:  FOR R[1]=1 TO 2 ;\n"), ("", "R["), ("", "("), ("", "!")],
+        is_flat: true,
     };
     apt: Example {
         files: &[("part.apt", include_str!("fixtures/solidworks.apt"))],
@@ -224,6 +289,7 @@ conforms! {
         partial: &[],
         ends: 6,
         nests: &[("", "LOOPST\n"), ("", "("), ("", "/")],
+        is_flat: true,
     };
     poses: Example {
         files: &[("a.csv", crate::poses::TABLE)],
@@ -232,6 +298,7 @@ conforms! {
         partial: &[],
         ends: 4,
         nests: &[("", "("), ("", "\""), ("", "[")],
+        is_flat: false,
     };
     siemens: Example {
         files: &[("part.mpf", include_str!("fixtures/everything.mpf"))],
@@ -240,6 +307,7 @@ conforms! {
         partial: &[30],
         ends: 15,
         nests: &[("", "IF R1==1\n"), ("", "LOOP\n"), ("R1=", "("), ("R1=", "-"), ("R1=", "ABS("), ("R1=", "R[")],
+        is_flat: true,
     };
     heidenhain: Example {
         files: &[("part.h", include_str!("fixtures/everything.h"))],
@@ -248,6 +316,7 @@ conforms! {
         partial: &[23, 24],
         ends: 10,
         nests: &[("Q1 = ", " ("), ("Q1 = ", " -"), ("Q1 = ", " SIN "), ("", "LBL 1\n")],
+        is_flat: true,
     };
     urscript: Example {
         files: &[("part.script", include_str!("fixtures/everything.script"))],
@@ -256,6 +325,7 @@ conforms! {
         partial: &[11, 32, 41],
         ends: 8,
         nests: &[("", "if True:\n"), ("", "while True:\n"), ("", "def f():\n"), ("x=", "("), ("x=", "["), ("x=", "p["), ("x=", "not "), ("x=", "cos(")],
+        is_flat: true,
     };
     val3: Example {
         files: &[
@@ -267,5 +337,6 @@ conforms! {
         partial: &[],
         ends: 6,
         nests: &[("", "if true\n"), ("", "while true\n"), ("nCount=", "("), ("nCount=", "-"), ("nCount=", "abs("), ("nCount=", "nCount["), ("movel(", "appro(")],
+        is_flat: true,
     };
 }

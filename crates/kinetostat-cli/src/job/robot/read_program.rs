@@ -356,7 +356,7 @@ pub(crate) fn flat_text(source: &RobotSource, comments: bool) -> Answer<(FlatTex
         .map_err(|all| refused(&all, |fault| fault.reason.as_str()).of_program())?;
     let Some(text) = done else {
         return Err(Failure::input(
-            "--expand and [expand] are for G-code, SINUMERIK, Heidenhain, RAPID, KRL and the cycles of APT; a program of another robot is read as it stands, with its routines: leave them out",
+            "--expand and [expand] are for programs, and a list of poses is read as it stands: leave them out",
         ));
     };
     let text = match comments {

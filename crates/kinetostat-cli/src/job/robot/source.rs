@@ -1,6 +1,7 @@
 //! The files of a robot's program.
 
 use std::borrow::Cow;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use kinetostat_formats::{FileForm, Language, SlashBlocks, SourceFile, language_of, odd_program};
@@ -136,8 +137,20 @@ pub(crate) fn robot_source(
         source.paths.push(path);
         Ok(())
     };
+    let stated = |beside: &PathBuf| {
+        let stated = table.iter().flat_map(|(_, table)| &table.get_ref().files);
+        let mut names = stated.map(|file| Path::new(file.get_ref()).file_name());
+        let is_same = |name: &OsStr| {
+            beside
+                .file_name()
+                .is_some_and(|own| own.eq_ignore_ascii_case(name))
+        };
+        names.any(|name| name.is_some_and(is_same))
+    };
     for beside in files_beside(language, path, bytes) {
-        take(beside)?;
+        if !stated(&beside) {
+            take(beside)?;
+        }
     }
     if let Some((j, table)) = table {
         let of_job = j.job.program.as_ref();

@@ -3,6 +3,7 @@
 mod beside;
 mod broken;
 mod corrections;
+mod flat;
 pub mod random;
 mod registers;
 mod runs;
