@@ -3,7 +3,7 @@
 use crate::interpreter::expression::Expression;
 use crate::interpreter::operation::same;
 use crate::interpreter::value::{Datum, Value};
-use crate::ls::flat::FlatLines;
+use crate::ls::flat_lines::FlatLines;
 use crate::ls::motion::MotionText;
 use crate::ls::passing::Open;
 use crate::ls::program::label_of;

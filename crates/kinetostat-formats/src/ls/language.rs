@@ -1,7 +1,7 @@
 //! Facts and acts of FANUC TP programs that files outside this folder ask for.
 
 use crate::error::WriteError;
-use crate::ls::flat::expand_ls;
+use crate::ls::expand::expand_ls;
 use crate::ls::lines::Layout;
 use crate::ls::reader::parse_ls;
 use crate::ls::step::{Step, step_of};

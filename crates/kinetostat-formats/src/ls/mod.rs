@@ -1,8 +1,9 @@
 //! FANUC TP programs as text (LS): programs read together, and what the writer must know of them.
 //!
 //! From lines ([`lines`], [`words`]) to steps ([`step`], [`motion`], [`expression`], [`instructions`]) and positions ([`positions`],
-//! [`configuration`]) of programs ([`program`], [`linking`], [`beside`]), which are run: [`run`] holds the state, [`control`] the order,
-//! [`storage`] the data, [`passing`] branches that only the controller decides, [`ends`] and [`made_motion`] the motions. [`names`] are what people call
+//! [`configuration`]) of programs ([`program`], [`linking`]), which are run: [`run`] holds the state, [`control`] the order,
+//! [`storage`] the data, [`passing`] branches that only the controller decides and [`made_motion`] the motions. [`flat`] writes the
+//! lines that ran ([`flat_lines`]), [`expand`] the file of them. [`names`] are what people call
 //! positions; [`found`] keeps what is said. What each statement is taken for stands in [`table`].
 //!
 //! Source: FANUC, R-30iB controller, operator's manual (basic operation), chapter 4 "Program structure", and the ASCII
@@ -10,8 +11,10 @@
 
 pub(crate) mod configuration;
 mod control;
+mod expand;
 mod expression;
 mod flat;
+mod flat_lines;
 mod found;
 mod instructions;
 pub(crate) mod language;

@@ -6,7 +6,7 @@ use nalgebra::Isometry3;
 
 use crate::interpreter::stated::StatedValues;
 use crate::interpreter::value::Datum;
-use crate::ls::flat::FlatLines;
+use crate::ls::flat_lines::FlatLines;
 use crate::ls::found::Reader;
 use crate::ls::lines::Layout;
 use crate::ls::motion::End;
