@@ -14,8 +14,10 @@ use crate::stability::regeneration::Regeneration;
 
 /// First steps of the scan, as the logarithm of a ratio of depths.
 const COARSE: f64 = 0.22;
-/// Steps beside the unit circle.
+/// Steps beside the unit circle: an island that is narrower may be missed.
 const FINE: f64 = 0.025;
+/// Such steps below a limit: what is stable again within a tenth of the depth is no limit to a tool that passes it.
+const FINE_BELOW_LIMIT: f64 = 0.1;
 /// Steps with a change of stability inside are divided to this before it is closed in on.
 const ALONE: f64 = 0.06;
 /// Change of the multiplier's logarithm over that of the depth that is reckoned with at least, where the cut is stable and
@@ -26,8 +28,9 @@ const ROUGHLY_CLOSED: f64 = 1e-7;
 const CLOSED: f64 = 1e-9;
 /// Change of a crossing with a third more points that is accepted, share of the depth; else points are added.
 const RESOLVED: f64 = 1e-6;
-/// Share of the usual points with which the depth is scanned; each crossing is then closed in on with more.
-const SCANNED: f64 = 0.75;
+/// Share of the usual points with which the depth is scanned: enough for the side of the unit circle. Each crossing is then closed
+/// in on with more.
+const SCANNED: f64 = 0.6;
 /// Largest multiple of the usual points.
 const FINEST: f64 = 3.5;
 
@@ -152,6 +155,10 @@ fn changes(
             log: along.logarithm(at.exp(), krylov::ROUGH)?,
         })
     };
+    let finest = match search {
+        Search::All => FINE,
+        Search::First => FINE_BELOW_LIMIT,
+    };
     let steps = ((to - from) / COARSE).ceil().max(1.0);
     let mut last = sample(from)?;
     let mut found = Vec::new();
@@ -170,7 +177,7 @@ fn changes(
             let near = 0.5 * (last.log.abs() + next.log.abs()) < 0.5 * slope * step;
             let divide = match change {
                 true => step > ALONE,
-                false => near && step > FINE,
+                false => near && step > finest,
             };
             if divide {
                 waiting.push(sample(0.5 * (last.at + next.at))?);
