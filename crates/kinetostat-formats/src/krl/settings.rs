@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::error::excerpt;
 use crate::interpreter::expression::{Expression, Node};
 use crate::interpreter::run::Reason;
 use crate::interpreter::token::TokenFile;
@@ -46,6 +47,11 @@ impl Run<'_, '_> {
         let Some(name) = file.name(tokens.start) else {
             return Ok(());
         };
+        if expression_of(file, tokens.start..equals).node == Node::Unreadable {
+            let what = excerpt(file.text(&(tokens.start..equals)).as_bytes());
+            let reason = format!("`{what}` is no variable");
+            return Err((reason, "write the variable alone before the sign `=`"));
+        }
         let value = expression_of(file, equals + 1..tokens.end);
         let is_whole = equals == tokens.start + 1;
         let part = (!is_whole && file.is(tokens.start + 1, b'.'))

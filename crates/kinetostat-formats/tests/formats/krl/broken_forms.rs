@@ -46,6 +46,20 @@ fn each_is_refused(cases: &[(&str, &[(usize, &str)])]) {
 }
 
 #[test]
+fn words_beside_a_variable_are_no_part_of_it() {
+    each_is_refused(&[
+        (
+            "SLIN XP1 WITH $VEL D=0.2",
+            &[(3, "`$VEL D` is no variable")],
+        ),
+        (
+            "$VEL.CP D=0.2\nLIN XP1",
+            &[(3, "`$VEL.CP D` is no variable")],
+        ),
+    ]);
+}
+
+#[test]
 fn spline_blocks_that_are_none() {
     each_is_refused(&[
         (
