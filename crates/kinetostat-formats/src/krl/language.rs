@@ -1,5 +1,7 @@
 //! Facts and acts of KRL that files outside this folder ask for.
 
+use std::collections::BTreeSet;
+
 use crate::error::WriteError;
 use crate::krl::reader::{expand_krl, is_data_list, parse_krl};
 use crate::krl::system_frames::krl_needs_config;
@@ -286,20 +288,33 @@ impl ProgramLanguage for KrlLanguage {
     }
 }
 
-/// Names before an opening bracket, which calls have, and arrays as well.
+/// Names before an opening bracket, which calls have, and arrays as well; without those of the file's own routines.
 fn names_before_brackets(bytes: &[u8]) -> Vec<String> {
-    let lines = bytes.split(|byte| *byte == b'\n');
-    let code = lines.filter_map(|line| line.split(|byte| *byte == b';').next());
-    let before = code.flat_map(|code| {
-        let parts: Vec<&[u8]> = code.split(|byte| *byte == b'(').collect();
-        parts[..parts.len() - 1].to_vec()
-    });
-    let names = before.filter_map(|part| {
+    let (mut own, mut named) = (BTreeSet::new(), Vec::new());
+    for line in bytes.split(|byte| *byte == b'\n') {
+        let code = line.split(|byte| *byte == b';').next().unwrap_or_default();
         let is_part = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'$');
-        part.trim_ascii_end().rsplit(|byte| !is_part(byte)).next()
-    });
-    let names = names.filter(|name| !name.is_empty());
-    names
-        .map(|name| String::from_utf8_lossy(name).into_owned())
-        .collect()
+        let mut words = code
+            .split(|byte| !is_part(byte))
+            .filter(|word| !word.is_empty());
+        let is_header = words.any(|word| {
+            [&b"DEF"[..], b"DEFFCT"]
+                .iter()
+                .any(|def| word.eq_ignore_ascii_case(def))
+        });
+        let parts: Vec<&[u8]> = code.split(|byte| *byte == b'(').collect();
+        for part in &parts[..parts.len() - 1] {
+            let name = part.trim_ascii_end().rsplit(|byte| !is_part(byte)).next();
+            let name = name.filter(|name| !name.is_empty());
+            let Some(name) = name.map(|name| String::from_utf8_lossy(name).into_owned()) else {
+                continue;
+            };
+            match is_header {
+                true => _ = own.insert(name.to_ascii_uppercase()),
+                false => named.push(name),
+            }
+        }
+    }
+    named.retain(|name| !own.contains(&name.to_ascii_uppercase()));
+    named
 }
