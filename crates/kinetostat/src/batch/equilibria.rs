@@ -400,7 +400,7 @@ impl Batch {
             let wanted = Some(directions);
             let [tips, correctors] = &mut [(); 2].map(|()| Table::none(poses.len()));
             let beside = [&mut table, tips, correctors];
-            self.vectorised(&places, wrenches, wanted, &mut equilibrium, beside);
+            self.solved(&places, wrenches, wanted, &mut equilibrium, beside);
         }
         let mut targets = poses.to_vec();
         for i in 0..poses.len() {
@@ -536,6 +536,53 @@ impl Batch {
         }
     }
 
+    /// Solves those postures that kernels can, as [`Self::vectorised`]; along a path, where most runs find no way from home to
+    /// their first posture (half a turn of a wrist away), from what the general engine finds there.
+    fn solved(
+        &self,
+        places: &Places<'_>,
+        wrenches: &[Wrench],
+        directions: Option<Directions>,
+        out: &mut BatchEquilibrium,
+        mut beside: [&mut Table; 3],
+    ) {
+        let [targets, tips, correctors] = &mut beside;
+        self.vectorised(
+            places,
+            wrenches,
+            directions,
+            out,
+            [targets, tips, correctors],
+        );
+        let left = out.status.iter().filter(|s| **s != Status::Vectorised);
+        let (Places::Poses(poses), true, Ok(nominal)) = (places, self.along, &self.nominal) else {
+            return;
+        };
+        if 2 * left.count() <= poses.len() {
+            return;
+        }
+        let mut joints = Table::default();
+        let width = nominal.iter().map(|p| p.commands + p.passive.len()).sum();
+        joints.reset(width, poses.len());
+        for (job, part) in poses.chunks(BLOCKS * BLOCK).enumerate() {
+            for k in (0..part.len()).step_by(part.len().div_ceil(BLOCK)) {
+                let posture = self.mechanism.posture(&part[k]).ok();
+                let numbers = posture.map(|posture| joints_of(nominal, &posture));
+                joints.set_row(job * BLOCKS * BLOCK + k, |i| {
+                    numbers.as_ref().map_or(f64::NAN, |own| own[i])
+                });
+            }
+        }
+        let begun = Places::Known {
+            poses,
+            joints: &joints,
+            standing: None,
+            deviations: &[],
+            first: 0,
+        };
+        self.vectorised(&begun, wrenches, directions, out, beside);
+    }
+
     fn as_many(&self, places: &Places<'_>, wrenches: &[Wrench]) -> Result<()> {
         if wrenches.len() == places.len() {
             return Ok(());
@@ -623,11 +670,7 @@ impl Batch {
         if !posture.others.is_empty() || !self.stability_by_kernels() {
             return None;
         }
-        let mut numbers = Vec::new();
-        for (plan, own) in nominal.iter().zip(posture.limbs()) {
-            numbers.extend_from_slice(&own.commands);
-            numbers.extend(plan.passive.iter().map(|i| own.coordinates[*i]));
-        }
+        let numbers = joints_of(nominal, posture);
         let mut joints = Table::default();
         joints.reset(numbers.len(), 1);
         joints.set_row(0, |k| numbers[k]);
@@ -657,7 +700,7 @@ impl Batch {
         out.reset(self, query, places.len());
         if query != Details::Stability || self.stability_by_kernels() {
             let mut beside = [(); 3].map(|()| Table::none(places.len()));
-            self.vectorised(places, wrenches, None, out, beside.each_mut());
+            self.solved(places, wrenches, None, out, beside.each_mut());
             self.leave_nearly_rigid(out);
             if places.have_a_start() {
                 return self.once_more(places, wrenches, query, out);
@@ -677,6 +720,16 @@ impl Batch {
         }
         Ok(())
     }
+}
+
+/// Commands and passive joints of a posture, limb after limb, as [`Places::Known`] has them.
+fn joints_of(nominal: &[Plan], posture: &Posture) -> Vec<f64> {
+    let limbs = nominal.iter().zip(posture.limbs());
+    let each = limbs.flat_map(|(plan, own)| {
+        let passive = plan.passive.iter().map(|i| own.coordinates[*i]);
+        own.commands.iter().copied().chain(passive)
+    });
+    each.collect()
 }
 
 /// The 12 numbers of a pose.

@@ -165,6 +165,12 @@ impl WithSimd for Job<'_> {
                             Places::Joints { commands, each } => {
                                 machine.start_at_joints(simd, &group, (commands, each))
                             }
+                            Places::Poses(poses) | Places::Known { poses, .. }
+                                if along && first > from =>
+                            {
+                                let place = group.target(simd, poses);
+                                machine.go_on(simd, (place, &wrench), directions)
+                            }
                             Places::Known {
                                 poses,
                                 joints,
@@ -176,10 +182,6 @@ impl WithSimd for Job<'_> {
                                 let standing = standing.map(|s| (s, deviations));
                                 let known = (joints, standing, first);
                                 machine.start_with(simd, &group, target, known)
-                            }
-                            Places::Poses(poses) if first > from => {
-                                let place = group.target(simd, poses);
-                                machine.go_on(simd, (place, &wrench), directions)
                             }
                             Places::Poses(poses) => {
                                 machine.start_at(simd, group.target(simd, poses))

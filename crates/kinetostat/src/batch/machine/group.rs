@@ -19,7 +19,8 @@ pub(crate) enum Places<'a> {
         commands: &'a [f64],
         each: usize,
     },
-    /// Poses with the joints that lead to them, and the equilibrium of a similar machine there under a load.
+    /// Poses with the joints that lead to them, and the equilibrium of a similar machine there under a load; along a path with those
+    /// of the first pose of each run.
     Known {
         poses: &'a [Pose],
         joints: &'a Table,

@@ -4,7 +4,7 @@ use kinetostat::batch::{AlongPath, Batch, BatchEquilibrium, Details, Status};
 use kinetostat::internal::{InstructionSet, batch_along_path};
 use kinetostat::model::ActuatorSpec;
 use kinetostat::{Chain, Directions, Mechanism, MotionKind, Pose, Wrench};
-use nalgebra::{Matrix3, Matrix6, Vector3};
+use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3};
 
 use super::kernels::sliders;
 
@@ -173,6 +173,33 @@ fn a_place_on_a_path_is_as_by_itself() {
                     }
                 }
             }
+        }
+    }
+}
+
+/// With the wrist half a turn from home, kernels find no way there by themselves: runs begin where the general engine does.
+#[test]
+fn a_path_far_from_home_is_solved_by_kernels_too() {
+    let machine = gantry();
+    let home = machine.platforms()[machine.tool()].home;
+    let (poses, wrenches) = path(&home, 300);
+    let turned = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::PI);
+    let poses: Vec<Pose> = poses.iter().map(|pose| pose * turned).collect();
+    let count = |found: &BatchEquilibrium| {
+        let by_kernels = found.status.iter();
+        by_kernels.filter(|s| **s == Status::Vectorised).count()
+    };
+    for directions in requests() {
+        let places = (poses.as_slice(), wrenches.as_slice());
+        let (targets, path) = found(&machine, true, places, directions);
+        let (own, alone) = found(&machine, false, places, directions);
+        assert!(count(&alone) < 30, "{} of 300 from home", count(&alone));
+        assert_eq!(count(&path), 300);
+        for i in 0..300 {
+            let off = (targets[i].translation.vector - own[i].translation.vector).norm();
+            let tool = path.tool_pose(i).translation.vector;
+            let apart = (tool - alone.tool_pose(i).translation.vector).norm();
+            assert!(off < 1e-10 && apart < 1e-10, "{i}: {off:e} {apart:e} m");
         }
     }
 }
