@@ -76,6 +76,11 @@ impl Run<'_, '_> {
                 ));
             }
         }
+        let values = arguments.iter().filter_map(|own| own.value.as_ref());
+        if let Some(odd) = values.into_iter().find(|own| own.node == Node::Unreadable) {
+            let reason = format!("`{}` is no expression", file.text(&odd.tokens));
+            return Err((reason, FORM.remedy));
+        }
         let last = row.parameters[row.ends - 1];
         let is_missing = || (format!("{} needs {last}", row.name), FORM.remedy);
         let end = given(last).ok_or_else(is_missing)?;

@@ -64,6 +64,10 @@ fn statements_that_move_the_tool_otherwise_are_refused_by_line() {
             "movel(p[0.1,0,0,0,0,0], p[0,0,0,0,0,0], 1.2, 0.02)",
             "`p[0,0,0,0,0,0]` is no number",
         ),
+        (
+            "movel(p[0.1,0,0,0,0,0], a=1.2, v=0.0while 2)",
+            "`0.0while 2` is no expression",
+        ),
         ("movel(p[0.1,0,0,0,0,0]) a", "no statement is written so"),
         (
             "a_name_that_is_far_too_long_for_this_reader_and_for_everybody_else = 1",
