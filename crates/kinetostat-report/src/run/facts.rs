@@ -461,12 +461,17 @@ pub(crate) fn heading(result: &Shown<'_>) -> Vec<Value> {
             "Tolerance",
             format!(
                 "path {}, chords of arcs {}",
-                number::length_setting(run_inputs.tolerance_mm),
-                number::length_setting(run_inputs.chord_tolerance_mm)
+                number::length_setting(rounded(run_inputs.tolerance_mm)),
+                number::length_setting(rounded(run_inputs.chord_tolerance_mm))
             ),
         ));
     }
     rows
+}
+
+/// A share of what was set, to four digits.
+fn rounded(share: f64) -> f64 {
+    format!("{share:.3e}").parse().unwrap_or(share)
 }
 
 /// Text for the first screen, where an endless name must not push the result away.
