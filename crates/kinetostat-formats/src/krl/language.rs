@@ -95,7 +95,14 @@ impl ProgramLanguage for KrlLanguage {
     }
 
     fn called_files(&self, file: &SourceFile) -> Vec<String> {
-        with_ending(names_before_brackets(file.bytes()), "src")
+        let mut names = names_before_brackets(file.bytes());
+        let is_known = |name: &String| {
+            let mut rows = KRL_STATEMENTS.iter();
+            rows.any(|row| row.name.eq_ignore_ascii_case(name))
+        };
+        // What the controller has is no program of the user (`BAS`).
+        names.retain(|name| !is_known(name));
+        with_ending(names, "src")
     }
 
     fn held_word(&self) -> Option<&'static str> {

@@ -102,7 +102,7 @@ fn different_corrections_of_one_statement_need_the_flat_program() {
 /// Files of the names that a program calls belong to it; its own routines, arrays and remarks name none.
 #[test]
 fn files_beside_are_those_that_are_called() {
-    let text = "DEF part()\nway[1]={X 5}\nGroove (1,2)\n; other()\nsub()\nx=half(3)\nEND\nDEF sub()\nEND\nDEFFCT REAL half(x:IN)\nEND\n";
+    let text = "DEF part()\nBAS(#INITMOV,0)\nway[1]={X 5}\nGroove (1,2)\n; other()\nsub()\nx=half(3)\nEND\nDEF sub()\nEND\nDEFFCT REAL half(x:IN)\nEND\n";
     let file = SourceFile::new("main.src", text);
     assert_eq!(called_files(Language::Krl, &file), ["Groove.src"]);
     let folder = ["part.src", "groove.src", "sub.src", "other.src", "main.dat"].map(String::from);
