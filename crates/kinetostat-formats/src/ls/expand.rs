@@ -42,7 +42,10 @@ pub(crate) fn expand_ls(
         let (layout, positions) = (&run.all.layouts[0], run.all.positions);
         let flat = match !lines.is_changed && lines.count == layout.lines.len() {
             true => FlatText::unchanged(file, 0),
-            false => with_lines(lines, files, (layout, positions))?,
+            false => FlatText {
+                findings: run.reader.findings,
+                ..with_lines(lines, files, (layout, positions))?
+            },
         };
         Ok((flat, run.motions))
     })?;
