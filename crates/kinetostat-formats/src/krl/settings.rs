@@ -47,7 +47,8 @@ impl Run<'_, '_> {
         let Some(name) = file.name(tokens.start) else {
             return Ok(());
         };
-        if expression_of(file, tokens.start..equals).node == Node::Unreadable {
+        let left = tokens.start..equals;
+        if is_in_force(&name) && expression_of(file, left).node == Node::Unreadable {
             let what = excerpt(file.text(&(tokens.start..equals)).as_bytes());
             let reason = format!("`{what}` is no variable");
             return Err((reason, "write the variable alone before the sign `=`"));

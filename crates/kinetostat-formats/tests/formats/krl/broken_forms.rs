@@ -57,6 +57,13 @@ fn words_beside_a_variable_are_no_part_of_it() {
             &[(3, "`$VEL.CP D` is no variable")],
         ),
     ]);
+    // A row of an array of texts.
+    let text = "DEF a()\nCHAR text[2,10]\ntext[1,]=\"a\"\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
+    let read = read_krl(
+        vec![SourceFile::new("a.src", text)],
+        &ReadOptions::default(),
+    );
+    assert_eq!(read.map(|program| program.motions.len()), Ok(1));
 }
 
 #[test]
