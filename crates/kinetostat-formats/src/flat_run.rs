@@ -21,6 +21,14 @@ const MOST_LINES: usize = 5_000_000;
 /// Limit of the written bytes.
 const MOST_BYTES: usize = 1 << 28;
 
+/// Reason and remedy of a program that runs, and cannot be written flat.
+pub(crate) fn not_flat(why: &str) -> (String, &'static str) {
+    (
+        format!("the program cannot be written flat: {why}"),
+        "read the program without expanding it",
+    )
+}
+
 /// The bounds in words.
 const BOUNDS: &str = "it has run more than 20 million blocks, or more than a million blocks that write nothing, or has written more than 5 million blocks or 256 MiB";
 

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::error::ProgramError;
-use crate::flat_run::Written;
+use crate::flat_run::{Written, not_flat};
 use crate::interpreter::expression::{Argument, Expression, Node};
 use crate::interpreter::run::{Dialect, Logged, Root, Run};
 use crate::interpreter::symbols::{Meaning, Scope, Symbols};
@@ -180,11 +180,9 @@ impl<D: Dialect> Run<'_, '_, D> {
     }
 
     fn cannot_be_flat(&mut self, tokens: &Range<usize>, why: &str) {
-        if self.log.is_none() {
-            return;
+        if self.log.is_some() {
+            self.fault(tokens, not_flat(why));
         }
-        let reason = format!("the program cannot be written flat: {why}");
-        self.fault(tokens, (reason, "read the program without expanding it"));
     }
 
     fn log_with(&mut self, tokens: &Range<usize>, edits: Edits) {
@@ -305,8 +303,7 @@ impl<D: Dialect> Run<'_, '_, D> {
 
     /// True for the call of a function whose statements have been written.
     fn acts_in_call(&self, expression: &Expression) -> bool {
-        let key = (self.calls.len(), self.file().index, expression.tokens.start);
-        self.calls_that_act.contains(&key)
+        self.calls_that_act.contains(&self.key_of_call(expression))
     }
 
     fn means_another_in_main(&self, name: &Name) -> bool {

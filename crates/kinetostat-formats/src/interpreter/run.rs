@@ -395,6 +395,11 @@ impl<'r, 'p, D: Dialect> Run<'r, 'p, D> {
         }
     }
 
+    /// The call of a function: its depth, its file and its token.
+    pub(crate) fn key_of_call(&self, whole: &Expression) -> (usize, usize, usize) {
+        (self.calls.len(), self.file().index, whole.tokens.start)
+    }
+
     /// The file of the scope.
     pub(crate) fn file(&self) -> &'p TokenFile<'p> {
         &self.files[match self.scope {

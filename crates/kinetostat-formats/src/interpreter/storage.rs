@@ -508,7 +508,7 @@ impl<D: Dialect> Names for Run<'_, '_, D> {
     }
 
     fn call(&mut self, name: &Name, arguments: &[Argument], whole: &Expression) -> Datum {
-        let key = (self.calls.len(), self.file().index, whole.tokens.start);
+        let key = self.key_of_call(whole);
         if let Some(known) = self.results.get(&key) {
             return known.clone();
         }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::error::WriteError;
 use crate::krl::reader::{expand_krl, is_data_list, parse_krl};
 use crate::krl::system_frames::krl_needs_config;
-use crate::krl::table::{IN_MOTIONS, KRL_STATEMENTS, MODES, MOTIONS};
+use crate::krl::table::{IN_MOTIONS, KRL_STATEMENTS, MODES, MOTIONS, row};
 use crate::krl::writing::write::write_krl;
 use crate::model::motion::Motion;
 use crate::model::orientation::OrientationText;
@@ -18,6 +18,7 @@ use crate::program_language::{ProgramLanguage, WrittenFile, of_run, with_ending}
 use crate::refused_run::RefusedRun;
 use crate::table::StatementRow;
 use crate::text::flat::FlatText;
+use crate::text::name::Name;
 use crate::text::source::SourceFile;
 use crate::writing::piece::Piece;
 use nalgebra::Vector3;
@@ -96,12 +97,8 @@ impl ProgramLanguage for KrlLanguage {
 
     fn called_files(&self, file: &SourceFile) -> Vec<String> {
         let mut names = names_before_brackets(file.bytes());
-        let is_known = |name: &String| {
-            let mut rows = KRL_STATEMENTS.iter();
-            rows.any(|row| row.name.eq_ignore_ascii_case(name))
-        };
-        // What the controller has is no program of the user (`BAS`).
-        names.retain(|name| !is_known(name));
+        // `BAS` and its like belong to the controller.
+        names.retain(|name| Name::of(name.as_bytes()).is_none_or(|name| row(&name).is_none()));
         with_ending(names, "src")
     }
 

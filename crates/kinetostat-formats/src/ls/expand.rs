@@ -1,8 +1,7 @@
 //! The flat file of a TP program.
 
 use crate::error::ProgramError;
-use crate::flat_run::Written;
-use crate::ls::flat::{NOT_EXPANDED, not_flat};
+use crate::flat_run::{Written, not_flat};
 use crate::ls::flat_lines::FlatLines;
 use crate::ls::lines::{Layout, next_line};
 use crate::ls::positions::Positions;
@@ -32,7 +31,7 @@ pub(crate) fn expand_ls(
         let mut run = run.whole();
         let called = run.called_by_name();
         for program in (1..files.len()).filter(|program| !called.contains(program)) {
-            let reason = not_flat("no other program calls this one");
+            let (reason, _) = not_flat("no other program calls this one");
             (run.reader).fault(&files[program], 0..0, reason, "give it by itself");
         }
         if !run.reader.faults.is_empty() {
@@ -62,18 +61,17 @@ fn with_lines(
     (layout, positions): (&Layout, &[Positions]),
 ) -> Result<FlatText, Vec<ProgramError>> {
     let (file, bytes) = (&files[0], files[0].bytes());
-    let refused = |reason: &str| vec![ProgramError::at(file, 0..0, not_flat(reason), NOT_EXPANDED)];
     let (Some(first), Some(last), Some(section)) =
         (layout.lines.first(), layout.lines.last(), &layout.positions)
     else {
-        return Err(refused("it has no lines, or no section /POS"));
+        return Err(refused(file, "it has no lines, or no section /POS"));
     };
     let (begin, end) = (
         file.start_of(file.line_of(first.whole.start)),
         next_line(bytes, last.whole.end),
     );
     if section.end < end {
-        return Err(refused("its section /POS stands before its lines"));
+        return Err(refused(file, "its section /POS stands before its lines"));
     }
     let mut out = Written::new(file);
     out.copy((file, 0), &(0..begin));
@@ -95,8 +93,9 @@ fn with_lines(
         out.line(&text, (program, source.line_of(position.span.start)));
     }
     out.copy((file, 0), &(section.end..bytes.len()));
-    let added = Layout::of(&out.bytes).lines.len() as f64 - layout.lines.len() as f64;
-    let bytes = numbered(&out.bytes, &Layout::of(&out.bytes), added);
+    let now = Layout::of(&out.bytes);
+    let added = now.lines.len() as f64 - layout.lines.len() as f64;
+    let bytes = numbered(&out.bytes, &now, added);
     Ok(FlatText {
         changed: true,
         file: SourceFile::new(file.name(), bytes.unwrap_or(out.bytes)),
@@ -130,10 +129,10 @@ fn same_motions(
             .first()
             .map_or_else(String::new, |fault| fault.reason.clone()),
     };
-    Err(vec![ProgramError::at(
-        file,
-        0..0,
-        not_flat(&why),
-        NOT_EXPANDED,
-    )])
+    Err(refused(file, &why))
+}
+
+fn refused(file: &SourceFile, why: &str) -> Vec<ProgramError> {
+    let (reason, remedy) = not_flat(why);
+    vec![ProgramError::at(file, 0..0, reason, remedy)]
 }

@@ -5,11 +5,12 @@
 
 use std::ops::Range;
 
+use crate::flat_run::not_flat;
 use crate::interpreter::value::{Datum, Value};
 use crate::ls::expression::indices_of;
 use crate::ls::run::Run;
 use crate::ls::step::{Step, comma_in};
-use crate::ls::words::{Kind, words_of};
+use crate::ls::words::{Kind, index_of, words_of};
 use crate::text::edits::Edits;
 use crate::text::name::Name;
 
@@ -82,23 +83,18 @@ impl Run<'_, '_> {
             let close = file.bytes()[from..part.end]
                 .iter()
                 .position(|byte| *byte == b']');
-            let number = close.and_then(|close| {
-                std::str::from_utf8(file.part(&(from..from + close)))
-                    .ok()?
-                    .trim()
-                    .parse::<usize>()
-                    .ok()
-            });
+            let end = close.map_or(part.end, |close| from + close + 1);
+            let number = index_of(file.bytes(), &(start + 2..end)).map(|(number, _)| number);
             let arguments = self.calls.last().map(|called| called.arguments.as_slice());
-            let value = number.and_then(|number| arguments?.get(number.checked_sub(1)?));
+            let value = number.and_then(|number| arguments?.get(number.checked_sub(1)? as usize));
             let text = match value.map(|value| &value.value) {
                 Some(Value::Text(text)) => Some(format!("'{text}'")),
                 _ => value.and_then(Datum::as_number).map(printed),
             };
-            match (text, close) {
+            match text {
                 _ if edits.touches(&(start..from)) => {}
-                (Some(text), Some(close)) => edits.replace(start..from + close + 1, text),
-                _ => self.not_flat(at, "an argument of its call has no value that is known"),
+                Some(text) => edits.replace(start..end, text),
+                None => self.not_flat(at, "an argument of its call has no value that is known"),
             }
         }
     }
@@ -139,16 +135,10 @@ impl Run<'_, '_> {
 
     pub(super) fn not_flat(&mut self, at: usize, why: &str) {
         if self.flat.is_some() {
-            self.fault(at, (not_flat(why), NOT_EXPANDED));
+            self.fault(at, not_flat(why));
         }
     }
 }
-
-pub(super) fn not_flat(why: &str) -> String {
-    format!("the program cannot be written flat: {why}")
-}
-
-pub(super) const NOT_EXPANDED: &str = "read the program without expanding it";
 
 /// A number as a statement has it.
 fn printed(value: f64) -> String {

@@ -80,7 +80,7 @@ impl Dialect for Rapid {
         if name.is("CROBT")
             && let Some(here) = run.current_target(arguments)
         {
-            let key = (run.calls.len(), run.file().index, whole.tokens.start);
+            let key = run.key_of_call(whole);
             run.results.insert(key, here.clone());
             return Some(here);
         }

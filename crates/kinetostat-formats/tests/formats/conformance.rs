@@ -23,7 +23,7 @@ struct Example {
     ends: usize,
     /// Openings of blocks, brackets, calls and signs, each with what stands before the first of them.
     nests: &'static [(&'static str, &'static str)],
-    /// It can be written flat.
+    /// True for an example that can be written flat.
     is_flat: bool,
 }
 

@@ -137,18 +137,13 @@ pub(crate) fn robot_source(
         source.paths.push(path);
         Ok(())
     };
-    let stated = |beside: &PathBuf| {
-        let stated = table.iter().flat_map(|(_, table)| &table.get_ref().files);
-        let mut names = stated.map(|file| Path::new(file.get_ref()).file_name());
-        let is_same = |name: &OsStr| {
-            beside
-                .file_name()
-                .is_some_and(|own| own.eq_ignore_ascii_case(name))
-        };
-        names.any(|name| name.is_some_and(is_same))
-    };
+    let stated = table.iter().flat_map(|(_, table)| &table.get_ref().files);
+    let stated: Vec<&OsStr> = stated
+        .filter_map(|file| Path::new(file.get_ref()).file_name())
+        .collect();
     for beside in files_beside(language, path, bytes) {
-        if !stated(&beside) {
+        let own = beside.file_name().unwrap_or_default();
+        if !stated.iter().any(|name| own.eq_ignore_ascii_case(name)) {
             take(beside)?;
         }
     }

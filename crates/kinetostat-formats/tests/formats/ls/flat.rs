@@ -26,6 +26,14 @@ fn flat(lines: &[&str], values: &[(&str, &str)]) -> Result<String, String> {
     Ok(text)
 }
 
+fn read(text: impl Into<Vec<u8>>) -> RobotProgram {
+    read_ls(
+        vec![SourceFile::new("PART.LS", text)],
+        &ReadOptions::default(),
+    )
+    .unwrap()
+}
+
 /// The lines between /MN and /POS.
 fn lines_of(text: &str) -> Vec<&str> {
     let (_, behind) = text.split_once("/MN\n").unwrap();
@@ -81,11 +89,7 @@ fn loops_branches_and_calls_are_written_as_they_ran() {
         ]
     );
     assert!(text.contains("LINE_COUNT\t= 19;"), "{text}");
-    let program = read_ls(
-        vec![SourceFile::new("PART.LS", text)],
-        &ReadOptions::default(),
-    )
-    .unwrap();
+    let program = read(text);
     let ends = program
         .motions
         .iter()
@@ -113,11 +117,7 @@ fn each_pass_takes_its_own_correction() {
         "  ENDFOR ;",
     ];
     let text = flat(&lines, &[]).unwrap();
-    let program = read_ls(
-        vec![SourceFile::new("PART.LS", text)],
-        &ReadOptions::default(),
-    )
-    .unwrap();
+    let program = read(text);
     let pieces: Vec<Piece> = (program.motions.iter().enumerate())
         .map(|(index, motion)| {
             let mut place = motion.target.pose().unwrap().position_mm;
