@@ -45,12 +45,13 @@ pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
     if let Some(language) = language {
         return of_control(args, language, bytes);
     }
-    if let Some(option) = args.stated.given() {
+    if let Some(option) = args.stated.of_others() {
         return Err(Failure::input(format!(
             "{option} is for programs of robots, and '{name}' is read as G-code; leave it out"
         )));
     }
-    let settings = settings(None, &args.with, &reading(None, &args.reading)?)?;
+    let mut settings = settings(None, &args.with, &reading(None, &args.reading)?)?;
+    settings.options.reading.moving_calls = args.stated.moving_subprograms(None)?;
     let done = flattened(bytes, (&args.program, &name), &settings)?;
     let mut inputs = vec![args.program.clone()];
     inputs.extend(done.paths.iter().cloned());
@@ -164,7 +165,7 @@ fn summary(name: &str, done: &Flattened) -> String {
 #[derive(Debug, Args)]
 #[command(after_long_help = HELP)]
 pub(crate) struct ExpandArgs {
-    /// Program in G-code, of SINUMERIK (.mpf) or Heidenhain (.h), in APT (.apt, .cls), KRL (.src) or RAPID (.mod)
+    /// Program in G-code, of SINUMERIK (.mpf) or Heidenhain (.h), in APT (.apt, .cls), KRL (.src), RAPID (.mod) or FANUC TP (.ls)
     #[arg(value_name = "PROGRAM")]
     pub(crate) program: PathBuf,
     /// File for the flat program; without it, it is printed

@@ -24,7 +24,7 @@ use crate::job::job_file::JobFile;
 use crate::job::limits::limits;
 use crate::job::output_paths::{Form, OutputPaths, beside_program, flat_beside, output_paths};
 use crate::job::reading::reading;
-use crate::job::robot::called_files::with_called_files;
+use crate::job::robot::called_files::{refuse_calls_beside, with_called_files};
 use crate::job::robot::frames::RobotFrames;
 use crate::job::robot::parts::join_parts;
 use crate::job::robot::read_once::Reading;
@@ -240,7 +240,7 @@ pub(crate) fn setting(
         |n| n.to_string_lossy().into_owned(),
     );
     let expand = wanted(job, (&flags.expansion, flags.robot.converted), &reading)?;
-    reading.carries_cycles = expand
+    reading.of_fanuc_run = expand
         .as_ref()
         .is_some_and(|expand| expand.options.dialect == Dialect::Fanuc);
     let form = match expand {
@@ -262,11 +262,20 @@ pub(crate) fn setting(
     let named = (path.as_path(), program_name.as_str(), program.as_slice());
     let robot = robot_source(files, job, flags, named)?;
     // A search for faults of the job leaves out those of its program.
-    let expand = expand.filter(|_| !job.is_some_and(|j| j.is_searched));
+    let mut expand = expand.filter(|_| !job.is_some_and(|j| j.is_searched));
+    if robot.is_none() {
+        reading.moving_calls = flags.robot.stated.moving_subprograms(job)?;
+        if let Some(expand) = &mut expand {
+            expand.options.reading.moving_calls = reading.moving_calls.clone();
+        }
+    }
     let (mut robot_flat, mut notes_of_run) = (None, Vec::new());
     let robot = robot.map(|(mut source, read)| -> Answer<RobotSource> {
         program_files.extend(read);
         inputs.extend(source.paths.iter().cloned());
+        if expand.is_none() {
+            refuse_calls_beside(&source, &path)?;
+        }
         if let Some(expand) = &expand {
             for (path, read) in with_called_files(&mut source, &path, &expand.folders)? {
                 program_files.push(read);
@@ -276,6 +285,10 @@ pub(crate) fn setting(
             notes_of_run = notes_of(&text);
             robot_flat = Some((text.file.bytes().to_vec(), flat));
             let before = std::mem::replace(&mut source.files, vec![text.file]);
+            if source.language.is_in_blocks() {
+                // Its blocks hold numbers now.
+                source.settings.reading.values.clear();
+            }
             let paths = std::mem::take(&mut source.paths);
             for (file, path) in before.iter().skip(1).zip(paths) {
                 if stays_beside_flat(source.language, file) {

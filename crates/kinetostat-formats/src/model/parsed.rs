@@ -85,18 +85,31 @@ impl Parsed {
         if !external_axes_may_move {
             faults.extend(moving_axis(&files, &motions, language));
         }
-        let stated = stated_to_move(&files, &outside_calls, moving_calls);
-        faults.extend(stated.faults);
-        findings.extend(stated.findings);
-        findings.extend(named_calls(language, &outside_calls));
         findings.extend(unknown_frames(&motions));
         findings.extend(left_as_written(&motions));
-        let mut parsed = Self::of(language, files, motions, findings, faults);
+        let parsed = Self::of(language, files, motions, findings, faults);
+        let mut parsed = parsed.with_calls(outside_calls, moving_calls);
         parsed.faults.dedup();
         parsed.program.declarations = declarations;
-        parsed.program.outside_calls = outside_calls;
         parsed.program.ran = ran;
         parsed
+    }
+
+    /// With the calls of what is in none of its files: what is assumed of them, and those that the caller says move the tool.
+    pub(crate) fn with_calls(
+        mut self,
+        calls: Vec<OutsideCall>,
+        moving_calls: &BTreeSet<String>,
+    ) -> Self {
+        let program = &mut self.program;
+        let stated = stated_to_move(&program.files, &calls, moving_calls);
+        program.findings.extend(stated.findings);
+        (program.findings).extend(named_calls(program.language, &calls));
+        (program.findings).sort_by_key(|finding| (finding.file, finding.line));
+        self.faults.extend(stated.faults);
+        sort_faults(&mut self.faults, &program.files);
+        program.outside_calls = calls;
+        self
     }
 
     /// The program, if nothing is refused.

@@ -106,6 +106,10 @@ impl ProgramLanguage for SiemensLanguage {
         false
     }
 
+    fn takes_values(&self) -> bool {
+        true
+    }
+
     fn modes(&self) -> &'static [&'static [&'static str]] {
         MODES
     }

@@ -4,6 +4,7 @@ use crate::error::ProgramError;
 use crate::model::language::Language;
 use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
+use crate::model::stated_value::told_of_values;
 use crate::options::ReadOptions;
 use crate::siemens::scan::scan;
 use crate::siemens::walker::Scan;
@@ -44,11 +45,16 @@ pub(crate) fn parse_siemens(files: Vec<SourceFile>, options: &ReadOptions) -> Pa
     let Scan {
         motions,
         faults,
-        findings,
+        mut findings,
+        outside_calls,
         rotary,
         ..
     } = scan(&files, options);
-    let mut parsed = Parsed::of(Language::Siemens, files, motions, findings, faults);
+    findings.extend(
+        (files.first().into_iter()).flat_map(|file| told_of_values(&options.values, file.bytes())),
+    );
+    let parsed = Parsed::of(Language::Siemens, files, motions, findings, faults);
+    let mut parsed = parsed.with_calls(outside_calls, &options.moving_calls);
     parsed.program.slash_blocks = options.slash_blocks;
     parsed.program.rotary = rotary;
     parsed

@@ -6,11 +6,13 @@ use std::ops::Range;
 use nalgebra::Isometry3;
 
 use crate::axis_count::{CountShown, shown_by_both};
+use crate::model::outside_call::OutsideCall;
 use crate::model::slash_blocks::{SLASHED, SlashBlocks};
 use crate::options::ReadOptions;
-use crate::siemens::block::{Block, What};
+use crate::siemens::block::{Block, Item, What};
 use crate::siemens::declarations::define;
 use crate::siemens::files::whole_file;
+use crate::siemens::flat::unresolved::{called_by, program_name};
 use crate::siemens::plain_turns::finding_of;
 use crate::siemens::state::State;
 use crate::siemens::steps_behind_frames::finding_of_steps;
@@ -66,10 +68,11 @@ fn scan_once(
             out: &mut out,
             options,
             frames: &frames,
+            files,
             file,
             index,
             state: State::new(Standing::of_letters(&options.rotary_axes, shown)),
-            variables: Variables::default(),
+            variables: Variables::of(options),
             corners,
         };
         for line in 1..=file.line_count() {
@@ -147,6 +150,9 @@ impl Reader<'_> {
             let (item, alone) = (item.clone(), item.span == first.span);
             return self.statement(&item.span, &item.name, alone, tokens);
         }
+        if let Some(called) = called_by(self.file, &block.items) {
+            return self.outside_call(called);
+        }
         let (code, feed) = (self.state.code_stated, self.state.feed_stated);
         let faults = self.out.faults.len();
         let words = self.words(block);
@@ -162,6 +168,21 @@ impl Reader<'_> {
             return;
         }
         self.act(block, words, (code, feed));
+    }
+
+    /// A call of a subprogram, which is followed only by a run.
+    fn outside_call(&mut self, called: &Item) {
+        let name = self.name(&called.name);
+        let is_there =
+            |file: &SourceFile| program_name(file.name()) == program_name(&format!("{name}.SPF"));
+        if self.files.iter().any(is_there) {
+            return self.by_table("CALL", called);
+        }
+        self.out.outside_calls.push(OutsideCall {
+            file: self.index,
+            line: self.file.line_of(called.span.start),
+            name: Some(name),
+        });
     }
 
     /// Names the first block behind a slash, and what becomes of all of them.

@@ -71,6 +71,10 @@ const PASSED: Treatment = Refused {
     reason: "how fast the tool goes between the ends is not known",
     remedy: "write FNORM, and feeds by G94",
 };
+const UNFOLLOWED: Treatment = Refused {
+    reason: "it may move the tool or its frame, and is not followed",
+    remedy: "take it out, if it does neither",
+};
 const INVERSE: Treatment = Refused {
     reason: "the feed is one over the time of each block (G93)",
     remedy: "let the CAM system write feeds in mm/min (G94)",
@@ -172,6 +176,23 @@ const GROUPS: &[Alike] = &[
     alike(BESIDE, WORK, &["WHEN", "WHENEVER", "EVERY", "DO", "ID", "IDS", "SETINT", "DEFINE"]),
     alike(BESIDE, FUNDAMENTALS, &["POS", "POSA", "POSP"]),
     alike(BESIDE, WORK, &["MEAS", "MEAW"]),
+    alike(UNFOLLOWED, WORK, &[
+        "EXTCALL", "EXECTAB", "EXECUTE", "CONTPRON", "CONTDCON", "TANG", "TANGON", "TANGOF",
+        "TANGDEL", "TRAILON", "TRAILOF", "LEADON", "LEADOF", "COUPDEF", "COUPON", "COUPONC",
+        "COUPOF", "COUPOFS", "COUPDEL", "COUPRES", "CPON", "CPOF", "EGDEF", "EGON", "EGONSYN",
+        "EGONSYNE", "EGOFS", "EGOFC", "EGDEL", "TRACON", "GEOAX", "AXSWAP", "CORROF", "DRFOF",
+        "PRESETON", "PRESETONS", "FTOCON", "FTOCOF", "PUTFTOC", "PUTFTOCF", "TOFFON", "TOFFOF",
+        "CUTMOD", "TOOLENV", "DELTOOLENV", "TCA", "CTABDEF", "CTABEND", "LFON", "LFOF", "LFTXT",
+        "LFWP", "LFPOS", "LIFTFAST", "TOFRAMEX", "TOFRAMEY", "TOFRAMEZ", "TOROTX", "TOROTY",
+        "TOROTZ", "TCOABS", "TCOFR", "TCOFRX", "TCOFRY", "TCOFRZ", "REPOSA", "REPOSL", "REPOSQ",
+        "REPOSH", "REPOSHA", "REPOSQA", "RMB", "RMI", "RME", "RMN", "PON", "SON", "PONS", "SONS",
+        "PDELAYON", "SYNFCT", "AXTOCHAN", "OSCILL", "FOCON", "FOCOF", "FXS",
+    ]),
+    alike(Carried, WORK, &[
+        "MMC", "NEWCONF", "INIT", "START", "WAITM", "WAITMC", "WAITE", "SETM", "CLEARM", "EXTOPEN",
+        "EXTCLOSE", "ENABLE", "DISABLE", "CLRINT", "LOCK", "UNLOCK", "RESETMON", "SPOF",
+        "IPOBRKA", "FINEA", "COARSEA", "IPOENDA", "DELAYFSTON", "DELAYFSTOF", "STOPREOF",
+    ]),
     alike(OTHER, WORK, &["G291"]),
 ];
 
@@ -189,7 +210,10 @@ pub(crate) const MODES: &[&[&str]] = &[
     &["CDOF", "CDOF2", "CDON"], &["RTLION", "RTLIOF"], &["FGROUP"], &["FGREF"], &["FNORM"],
 ];
 
-/// The row of a word, in capitals. Frames of G505 to G599 have one row.
+/// The row of a word, in capitals. Frames of G505 to G599 have one row, and so have cycles that are not listed.
 pub(crate) fn row(word: &str) -> Option<&'static StatementRow> {
-    SIEMENS_STATEMENTS.iter().find(|row| row.name == word)
+    let of_word = |word: &str| SIEMENS_STATEMENTS.iter().find(|row| row.name == word);
+    let is_cycle = (word.strip_prefix("CYCLE"))
+        .is_some_and(|rest| rest.bytes().all(|byte| byte.is_ascii_digit()) && !rest.is_empty());
+    of_word(word).or_else(|| of_word("CYCLE90").filter(|_| is_cycle))
 }

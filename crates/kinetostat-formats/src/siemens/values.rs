@@ -5,6 +5,8 @@ use std::ops::Range;
 
 use crate::interpreter::expression::Operator;
 use crate::interpreter::functions::function;
+use crate::model::stated_value::StatedValue;
+use crate::options::ReadOptions;
 use crate::siemens::expression::Expression;
 
 /// Value of an expression.
@@ -101,6 +103,8 @@ pub(crate) struct Variables {
     pub parameters: BTreeMap<u32, f64>,
     /// Local variables by name in capitals.
     pub own: BTreeMap<Vec<u8>, Variable>,
+    /// Variables of the machine and of the control, of which the caller states the value.
+    pub stated: BTreeMap<Vec<u8>, Value>,
 }
 
 /// Reason why an expression has no value.
@@ -133,6 +137,28 @@ fn stated_parameter(name: &[u8], indices: &[f64]) -> Option<u32> {
 const LONGEST_TEXT: usize = 1000;
 
 impl Variables {
+    /// Those of which the caller states the value.
+    pub(crate) fn of(options: &ReadOptions) -> Self {
+        let mut variables = Self::default();
+        for (name, value) in &options.values {
+            let name = name.to_ascii_uppercase().into_bytes();
+            match (parameter(&name), value) {
+                (Some(number), StatedValue::Number(value)) => {
+                    variables.parameters.insert(number, *value);
+                }
+                (_, value) => {
+                    let value = match value {
+                        StatedValue::Number(value) => Value::Number(*value),
+                        StatedValue::Truth(value) => truth(*value),
+                        StatedValue::Text(text) => Value::Text(text.clone().into_bytes()),
+                    };
+                    variables.stated.insert(name, value);
+                }
+            }
+        }
+        variables
+    }
+
     /// Evaluates an expression.
     ///
     /// # Errors
@@ -193,6 +219,11 @@ impl Variables {
             b"FALSE" => Ok(truth(false)),
             b"$PI" => Ok(Value::Number(std::f64::consts::PI)),
             capitals => {
+                let stated = (self.stated.get(capitals))
+                    .filter(|_| indices.is_empty() && !self.own.contains_key(capitals));
+                if let Some(value) = stated {
+                    return Ok(value.clone());
+                }
                 if capitals.starts_with(b"$") {
                     return Err(format!(
                         "`{}` is known at the machine alone",
@@ -223,6 +254,12 @@ impl Variables {
             return Ok(());
         }
         let capitals = name.to_ascii_uppercase();
+        if let (Some(stated), true) = (self.stated.get_mut(&capitals), indices.is_empty())
+            && !self.own.contains_key(&capitals)
+        {
+            *stated = value;
+            return Ok(());
+        }
         let Some(variable) = self.own.get_mut(&capitals) else {
             return Err(format!("`{}` is not declared", shown(name)));
         };
@@ -241,6 +278,7 @@ impl Variables {
         parameter(name).is_some()
             || name.eq_ignore_ascii_case(b"R")
             || self.own.contains_key(&name.to_ascii_uppercase())
+            || self.stated.contains_key(&name.to_ascii_uppercase())
     }
 }
 

@@ -9,6 +9,7 @@ use crate::axis_count::CountShown;
 use crate::corner::Cut;
 use crate::error::{ProgramError, note};
 use crate::model::motion::Motion;
+use crate::model::outside_call::OutsideCall;
 use crate::model::stated_axes::StatedAxes;
 use crate::options::ReadOptions;
 use crate::siemens::block::How;
@@ -27,6 +28,8 @@ pub(crate) struct Scan {
     pub written: Vec<Written>,
     pub findings: Vec<Finding>,
     pub faults: Vec<ProgramError>,
+    /// Calls of subprograms that are in none of the files.
+    pub outside_calls: Vec<OutsideCall>,
     /// Rotary axis positions stated by motions.
     pub rotary: StatedAxes,
     /// Evidence in the words for the way in which these axes count.
@@ -116,6 +119,8 @@ pub(crate) struct Reader<'r> {
     pub out: &'r mut Scan,
     pub options: &'r ReadOptions,
     pub frames: &'r BTreeMap<String, Isometry3<f64>>,
+    /// All files of the program.
+    pub files: &'r [SourceFile],
     pub file: &'r SourceFile,
     pub index: usize,
     pub state: State,

@@ -30,6 +30,7 @@ mod ls;
 mod making;
 mod numbers;
 mod orientations;
+mod outside_calls;
 mod paths;
 mod points_of_paths;
 mod poses;

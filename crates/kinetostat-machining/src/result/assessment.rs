@@ -38,7 +38,7 @@ pub enum AssumptionKind {
     OwnWeight,
     /// A cut that does not chatter.
     Chatter,
-    /// Calls of what is in none of the files of a robot's program, taken not to move the tool and not to change what is in force.
+    /// Calls of what is in none of the files of a program, taken not to move the tool and not to change what is in force.
     OutsideCalls,
     /// Lengths of a program that states no unit.
     Units,
@@ -73,6 +73,9 @@ pub struct Assessment {
     pub assumptions: Vec<Assumption>,
 }
 
+/// Calls that are named in one sentence.
+const MOST_CALLS: usize = 5;
+
 impl Assumption {
     /// An assumption with its cost in mm, if that is known.
     ///
@@ -90,6 +93,27 @@ impl Assumption {
             is_critical: false,
             text: text.into(),
         }
+    }
+
+    /// Calls of what is in none of the files, by name with the first line; `None` where there are none.
+    #[must_use]
+    pub fn of_calls(calls: &[(String, usize)]) -> Option<Self> {
+        let named = |(name, line): &(String, usize)| format!("{name} (line {line})");
+        let shown: Vec<String> = calls.iter().take(MOST_CALLS).map(named).collect();
+        let more = match calls.len().saturating_sub(MOST_CALLS) {
+            0 => String::new(),
+            n => format!(" and {n} more"),
+        };
+        let (calls, are) = match calls.len() {
+            0 => return None,
+            1 => ("The call of", "is"),
+            _ => ("The calls of", "are"),
+        };
+        let text = format!(
+            "{calls} {}{more}, in none of the files, {are} taken not to move the tool and not to change speed, tool or frame.",
+            shown.join(", ")
+        );
+        Some(Self::new(AssumptionKind::OutsideCalls, None, text))
     }
 
     /// Rank of the assumption: critical ones first, unknown costs last.

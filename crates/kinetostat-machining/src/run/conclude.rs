@@ -113,6 +113,11 @@ pub(crate) fn conclude(
         );
         result.assume(Assumption::new(AssumptionKind::Units, None, text));
     }
+    let calls = task.path().outside_calls.iter();
+    let calls: Vec<(String, usize)> = calls.map(|(n, line)| (format!("O{n}"), *line)).collect();
+    if let Some(assumed) = Assumption::of_calls(&calls) {
+        result.assume(assumed);
+    }
     if let Some(line) = task.path().unjudged_feed_on {
         let text = format!(
             "Feeds whose start or way is not known, the first on line {line}, cut nothing that counts: no error is computed along them. Where they start is known with the places of the machine (--machine-zero-mm)."

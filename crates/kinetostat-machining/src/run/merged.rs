@@ -210,13 +210,14 @@ fn sum_of(own: &mut Option<f64>, next: Option<f64>) {
 
 /// Takes the result of the next part into that of those before it.
 fn merge(task: &Task<'_>, own: &mut RunResult, next: RunResult) {
-    let unjudged = |of: &RunResult| {
-        let mut all = of.assessment.assumptions.iter();
-        all.find(|one| one.kind == AssumptionKind::UnjudgedFeeds)
-            .cloned()
-    };
-    if let (None, Some(added)) = (unjudged(own), unjudged(&next)) {
-        own.assessment.assumptions.push(added);
+    for kind in [AssumptionKind::UnjudgedFeeds, AssumptionKind::OutsideCalls] {
+        let of_kind = |of: &RunResult| {
+            let mut all = of.assessment.assumptions.iter();
+            all.find(|one| one.kind == kind).cloned()
+        };
+        if let (None, Some(added)) = (of_kind(own), of_kind(&next)) {
+            own.assessment.assumptions.push(added);
+        }
     }
     if next.summary.points == 0 && next.summary.blocks_out == 0 {
         // Comments have a length, and figures of nothing are none.

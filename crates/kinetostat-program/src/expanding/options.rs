@@ -79,7 +79,7 @@ impl ExpandOptions {
     /// The options with those of the reading that follow from the dialect.
     pub(crate) fn of_dialect(&self) -> Self {
         let mut own = self.clone();
-        own.reading.carries_cycles |= self.dialect == Dialect::Fanuc;
+        own.reading.of_fanuc_run |= self.dialect == Dialect::Fanuc;
         own
     }
 }

@@ -1,5 +1,6 @@
 //! The path of a program: what [`crate::interpret`] makes of the words.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use nalgebra::Vector3;
@@ -225,6 +226,8 @@ pub struct Path {
     pub units_assumed_on: Option<usize>,
     /// First line with a feed of which no way is judged, because its start is not known or its way is the controller's own.
     pub unjudged_feed_on: Option<usize>,
+    /// Subprograms by number that are in none of the files and are taken not to move the tool, each with the first line that calls it.
+    pub outside_calls: BTreeMap<u32, usize>,
 }
 
 /// Something the user should know; not an error.

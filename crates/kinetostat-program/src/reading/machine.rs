@@ -42,7 +42,7 @@ pub(crate) fn machine_place(
         if !any {
             return Ok(None);
         }
-        check_machine_coordinates(block, modes, options.carries_cycles)?;
+        check_machine_coordinates(block, modes, options.of_fanuc_run)?;
     }
     let zero = options.machine_zero_mm;
     let reference = match block.codes.machine {

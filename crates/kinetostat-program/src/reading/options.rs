@@ -1,5 +1,6 @@
 //! Settings of the reading that a program does not state.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use nalgebra::Vector3;
@@ -102,9 +103,12 @@ pub struct ReadOptions {
     pub rotary: Option<Arc<RotaryAxes>>,
     /// Whose places X, Y and Z are while they stand at an angle.
     pub tool_centre_point: ToolCentrePoint,
-    /// The program was run once for Fanuc's controllers ([`crate::Dialect::Fanuc`]): canned cycles that only the controller can make,
-    /// one hole in a block over which the tool stands, stay as they are written, with a warning.
-    pub carries_cycles: bool,
+    /// The program was run once for Fanuc's controllers ([`crate::Dialect::Fanuc`]). What only the controller has stays as it is written, with a
+    /// warning: canned cycles, one hole in a block over which the tool stands, and calls of subprograms (M98, G65) that are in none of
+    /// the files, which are taken not to move the tool.
+    pub of_fanuc_run: bool,
+    /// Numbers of such subprograms that move the tool: their calls are refused.
+    pub moving_calls: BTreeSet<u32>,
     /// Numbers of the tools that the field of corrections knows, each with its length. `None` (the
     /// default) means one tool for the whole program: a second tool is warned of. With a list, a tool
     /// outside it is refused, and so is a tool change beside a motion.
@@ -127,7 +131,8 @@ impl Default for ReadOptions {
             other_axes: OtherAxes::Refused,
             rotary: None,
             tool_centre_point: ToolCentrePoint::ByCode,
-            carries_cycles: false,
+            of_fanuc_run: false,
+            moving_calls: BTreeSet::new(),
             tools: None,
             tool_before_first: true,
         }

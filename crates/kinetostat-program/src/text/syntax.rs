@@ -19,7 +19,7 @@ pub(crate) struct Refused {
     pub remedy: &'static str,
 }
 
-const FLATTEN: &str = "add --expand (in a job file: a table [expand]), flatten the program with `kinetostat expand`, or post-process it without subprograms";
+pub(crate) const FLATTEN: &str = "add --expand (in a job file: a table [expand]), flatten the program with `kinetostat expand`, or post-process it without subprograms";
 const NO_VARIABLES: &str = "add --expand (in a job file: a table [expand]), flatten the program with `kinetostat expand`, or let the CAM system write plain numbers";
 
 /// Reason for which a line with variables is refused.
@@ -326,11 +326,14 @@ fn other(line: &[u8], tokens: &[&Spanned], index: usize, byte: u8) -> Refused {
 fn subprogram(spanned: &Spanned, what: &str) -> Refused {
     Refused {
         span: spanned.span.clone(),
-        reason: format!(
-            "{what} is a subroutine; its blocks would need another correction at each call"
-        ),
+        reason: of_subprogram(what),
         remedy: FLATTEN,
     }
+}
+
+/// Reason for which a call is refused.
+pub(crate) fn of_subprogram(what: &str) -> String {
+    format!("{what} is a subroutine; its blocks would need another correction at each call")
 }
 
 /// Dialects with subroutines, each known by a word.
@@ -344,6 +347,8 @@ fn dialect(tokens: &[&Spanned], first_block: bool) -> Result<(), Refused> {
         let found = match (letter, code) {
             (b'O', _) if first_block && tokens.len() == 1 => continue,
             (b'O', _) => "a second program number (O word)".to_owned(),
+            // Judged where it is known whether the program was run.
+            (b'M', 98) | (b'G', 65) if has(b'P') => return Ok(()),
             (b'M', 96..=99) => format!("M{code}"),
             (b'G', 65..=67) => format!("the macro call G{code}"),
             (b'G', 22 | 23) if has(b'C') || has(b'L') => {

@@ -14,6 +14,32 @@ use crate::ui::failure::{Answer, Failure};
 /// Upper limit of the files of one program.
 const MOST_FILES: usize = 1000;
 
+/// A program in blocks that calls what lies in its folder is run, or refused: what the other file moves must not be passed over.
+pub(crate) fn refuse_calls_beside(source: &RobotSource, program: &Path) -> Answer<()> {
+    let (Some(file), true) = (source.files.first(), source.language.is_in_blocks()) else {
+        return Ok(());
+    };
+    let called = called_files(source.language, file);
+    if called.is_empty() {
+        return Ok(());
+    }
+    let folder = Folder::of(&folder_of(program));
+    match called.iter().find(|name| folder.file(name).is_some()) {
+        Some(name) => Err(Failure::input(format!(
+            "'{}' calls {name}, which lies in its folder and is not read with it: let both be run once and written flat (--expand, or a table [expand] in the job file)",
+            file.name()
+        ))),
+        None => Ok(()),
+    }
+}
+
+fn folder_of(program: &Path) -> PathBuf {
+    match program.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
+        _ => PathBuf::from("."),
+    }
+}
+
 /// Adds the files that a program calls, those that these call, and so on, as far as they are there: their places, and how they were
 /// read. A file that the job names stands for its name.
 pub(crate) fn with_called_files(
@@ -21,17 +47,9 @@ pub(crate) fn with_called_files(
     program: &Path,
     others: &[PathBuf],
 ) -> Answer<Vec<(PathBuf, FileRead)>> {
-    let own = program
-        .parent()
-        .map(|folder| match folder.as_os_str().is_empty() {
-            true => PathBuf::from("."),
-            false => folder.to_owned(),
-        });
-    let folders: Vec<Folder> = own
-        .iter()
-        .chain(others)
-        .map(|path| Folder::of(path))
-        .collect();
+    let own = folder_of(program);
+    let folders = std::iter::once(&own).chain(others);
+    let folders: Vec<Folder> = folders.map(|path| Folder::of(path)).collect();
     let inputs = InputFiles::default();
     let mut read = Vec::new();
     let mut at = 0;

@@ -9,7 +9,7 @@ use kinetostat_formats::{
     Correctable, FlatText, FrameUse, Motion, ProgramFault, RobotPath, RobotProgram, Target, Zone,
     all_faults, expand, path_of, read, spindle_of_blocks,
 };
-use kinetostat_machining::{Assumption, AssumptionKind, FlatProgram};
+use kinetostat_machining::{Assumption, FlatProgram};
 use kinetostat_program::{Move, StatedBy, Warning};
 
 use crate::job::robot::frame_distance::distance;
@@ -20,9 +20,6 @@ use crate::job::robot::system_frames::taken;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::fault_list::fault_list_text;
 use crate::ui::numbers::short;
-
-/// Upper limit of the call names in one sentence.
-const MOST_CALLS: usize = 5;
 
 /// A robot's program with its path.
 #[derive(Debug)]
@@ -58,23 +55,10 @@ impl RobotRead<'_> {
 
     /// Assumption that calls of unknown routines do not move the tool.
     pub(crate) fn assumed_of_calls(&self) -> Option<Assumption> {
-        let calls = self.program.calls_taken_to_stay();
-        let named = |(name, line): &(&str, usize)| format!("{name} (line {line})");
-        let shown: Vec<String> = calls.iter().take(MOST_CALLS).map(named).collect();
-        let more = match calls.len().saturating_sub(MOST_CALLS) {
-            0 => String::new(),
-            n => format!(" and {n} more"),
-        };
-        let (calls, are) = match calls.len() {
-            0 => return None,
-            1 => ("The call of", "is"),
-            _ => ("The calls of", "are"),
-        };
-        let text = format!(
-            "{calls} {}{more}, in none of the files, {are} taken not to move the tool and not to change speed, tool or frame.",
-            shown.join(", ")
-        );
-        Some(Assumption::new(AssumptionKind::OutsideCalls, None, text))
+        let calls = self.program.calls_taken_to_stay().into_iter();
+        let calls: Vec<(String, usize)> =
+            calls.map(|(name, line)| (name.to_owned(), line)).collect();
+        Assumption::of_calls(&calls)
     }
 
     /// The program as a run takes it.

@@ -148,7 +148,7 @@ pub(crate) fn settings(
     })
 }
 
-/// Names of calls that move the tool; only these languages call what is in none of the files.
+/// Names of calls that move the tool.
 fn moving_calls(
     job: Option<&JobFile>,
     flags: &RobotArgs,
@@ -157,8 +157,8 @@ fn moving_calls(
     let mut found: BTreeSet<String> = flags.stated.moving_calls.iter().cloned().collect();
     found.extend((job.iter()).flat_map(|j| j.job.calls.keys().map(|name| name.get_ref().clone())));
     match found.first() {
-        Some(name) if !language.is_of_robot() => Err(Failure::input(format!(
-            "'{name}' is stated to move the tool ([calls] in the job, --call), which is for programs in RAPID, KRL and FANUC TP: leave it out"
+        Some(name) if !language.has_calls() => Err(Failure::input(format!(
+            "'{name}' is stated to move the tool ([calls] in the job, --call), which is for programs that call others: leave it out"
         ))),
         _ => Ok(found),
     }
@@ -179,7 +179,7 @@ fn stated_values(
     }
     match found.keys().next() {
         Some(name) if !language.takes_values() => Err(Failure::input(format!(
-            "a value of '{name}' is stated ([values] in the job, --set), which is for programs that are run with values (RAPID, KRL, FANUC TP, VAL3, Heidenhain and the like): leave it out"
+            "a value of '{name}' is stated ([values] in the job, --set), which is for programs that are run with values (of robots, Heidenhain, SINUMERIK): leave it out"
         ))),
         _ => Ok(found),
     }

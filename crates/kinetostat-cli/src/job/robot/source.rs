@@ -214,10 +214,9 @@ fn files_beside(language: Language, path: &Path, bytes: &[u8]) -> Vec<PathBuf> {
     found
 }
 
-/// The first key of a table that only programs of robots have, with the name of the table.
+/// The first key of a table that G-code has no use for, with the name of the table.
 fn only_of_robots(job: &JobFile) -> Option<(&'static str, &Spanned<String>)> {
-    let call = job.job.calls.keys().next().map(|key| ("calls", key));
-    call.or_else(|| job.job.values.keys().next().map(|key| ("values", key)))
+    job.job.values.keys().next().map(|key| ("values", key))
 }
 
 /// A file in Parquet that was written.

@@ -8,6 +8,7 @@ use crate::heidenhain::expand::program::Program;
 use crate::heidenhain::expand::run::Run;
 use crate::heidenhain::expand::values::Values;
 use crate::heidenhain::numbering::is_numbered;
+use crate::model::stated_value::told_of_values;
 use crate::options::ReadOptions;
 use crate::refused_run::{RefusedRun, with_corners};
 use crate::text::flat::FlatText;
@@ -87,7 +88,7 @@ fn run_within(
     }
     let parameters = Values::of(options)
         .map_err(|(reason, remedy)| vec![ProgramError::at(main.file, 0..0, reason, remedy)])?;
-    let findings = parameters.findings(main.file.bytes());
+    let findings = told_of_values(&options.values, main.file.bytes());
     let mut run = Run {
         options,
         files,

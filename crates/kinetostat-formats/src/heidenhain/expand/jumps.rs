@@ -102,11 +102,9 @@ impl Run<'_> {
         let name = called_name(program.file.bytes(), block, word);
         let found = (self.programs.iter()).position(|program| program.is_named(&name));
         let Some(found) = found.filter(|_| !name.is_empty()) else {
-            return Err(self.fault(
-                at,
-                format!("the program `{name}` that it calls is not among the files"),
-                "give its file together with this one (--subprograms FOLDER)",
-            ));
+            // The reader of the flat text says what is assumed of it.
+            self.write(program.file.part(&block.text), at);
+            return Ok(Next::Block);
         };
         if let Some(fault) = self.programs[found].equal_labels().next() {
             return Err(fault);

@@ -52,8 +52,7 @@ impl<'f> Program<'f> {
 
     /// True if CALL PGM calls the program by this name.
     pub(crate) fn is_named(&self, name: &str) -> bool {
-        let own = stem(self.file.name());
-        own.eq_ignore_ascii_case(&stem(name))
+        is_called(self.file, name)
     }
 
     /// Errors of labels that are defined twice.
@@ -132,6 +131,11 @@ pub(crate) fn called_name(bytes: &[u8], block: &Block, program: &Word) -> String
     let text = &bytes[from.min(block.text.end)..block.text.end];
     let text = text.split(|byte| *byte == b';').next().unwrap_or_default();
     String::from_utf8_lossy(text).trim().to_owned()
+}
+
+/// True if CALL PGM calls a file by this name.
+pub(crate) fn is_called(file: &SourceFile, name: &str) -> bool {
+    stem(file.name()).eq_ignore_ascii_case(&stem(name))
 }
 
 /// A name of a file without folders and ending.

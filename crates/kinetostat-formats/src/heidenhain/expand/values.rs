@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use crate::heidenhain::words::{Word, parameter_at};
 use crate::model::stated_value::StatedValue;
 use crate::options::ReadOptions;
-use crate::text::finding::Finding;
 
 /// Values of parameters by their names in capitals; none where there is none.
 pub(crate) trait Parameters {
@@ -71,28 +70,6 @@ impl Values {
             Some(value) => self.insert(name.to_owned(), *value),
             None => self.remove(name),
         }
-    }
-
-    /// Findings on the values that the caller states, checked against the bytes of the program.
-    pub(crate) fn findings(&self, bytes: &[u8]) -> Vec<Finding> {
-        let text = String::from_utf8_lossy(bytes).to_ascii_uppercase();
-        let names = |name: &str| {
-            let mut found = text.match_indices(name);
-            found.any(|(at, _)| {
-                !text[at + name.len()..].starts_with(|next: char| next.is_ascii_digit())
-            })
-        };
-        let finding = |(name, value): (&String, &f64)| Finding {
-            file: 0,
-            line: 1,
-            message: match names(name) {
-                true => format!(
-                    "`{name}` is {value}, as is stated, unless the program gives it another value"
-                ),
-                false => format!("a value of `{name}` is stated, and the program does not name it"),
-            },
-        };
-        self.stated.iter().map(finding).collect()
     }
 
     pub(crate) fn insert(&mut self, name: String, value: f64) {

@@ -14,6 +14,7 @@ use crate::heidenhain::plane::Plane;
 use crate::heidenhain::reading::rounded::{Rounded, Unrounded};
 use crate::heidenhain::state::Pole;
 use crate::model::motion::Motion;
+use crate::model::outside_call::OutsideCall;
 use crate::model::stated_axes::AxesStated;
 use crate::text::finding::Finding;
 
@@ -65,6 +66,8 @@ pub(crate) struct PoleThere {
 pub(crate) struct Found {
     pub faults: Vec<ProgramError>,
     pub findings: Vec<Finding>,
+    /// Calls of programs that are in none of the files.
+    pub outside_calls: Vec<OutsideCall>,
     pub motions: Vec<Motion>,
     /// Source positions of each motion.
     pub ways: Vec<Way>,

@@ -56,7 +56,8 @@ pub fn read_heidenhain(
 pub(crate) fn parse_heidenhain(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
     let found = interpret(&files, options);
     let (motions, findings) = (found.motions, found.findings);
-    let mut parsed = Parsed::of(Language::Heidenhain, files, motions, findings, found.faults);
+    let parsed = Parsed::of(Language::Heidenhain, files, motions, findings, found.faults);
+    let mut parsed = parsed.with_calls(found.outside_calls, &options.moving_calls);
     parsed.program.slash_blocks = options.slash_blocks;
     parsed.program.rotary = StatedAxes {
         letters: options.rotary_axes.clone(),
@@ -99,6 +100,7 @@ fn interpret_once(files: &[SourceFile], options: &ReadOptions, shown: &[CountSho
             found: &mut found,
             options,
             frames: &frames,
+            files,
             file,
             index,
             unit_mm: 1.0,

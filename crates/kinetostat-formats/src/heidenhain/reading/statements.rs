@@ -3,10 +3,12 @@
 use std::ops::Range;
 
 use crate::heidenhain::blocks::Block;
+use crate::heidenhain::expand::program::{called_name, is_called};
 use crate::heidenhain::flow::{NOT_ALONE, label_name};
 use crate::heidenhain::reading::walker::{EXPAND, Reader};
 use crate::heidenhain::table::row;
 use crate::heidenhain::words::{EXPONENT, Word, exponent};
+use crate::model::outside_call::OutsideCall;
 use crate::model::slash_blocks::{SLASHED, SlashBlocks};
 use crate::table::Treatment;
 
@@ -68,7 +70,7 @@ impl Reader<'_> {
             b"TRANS" => self.trans(words, span),
             b"PLANE" => self.plane(words, span),
             b"FUNCTION" => self.function(words, span),
-            b"CALL" => self.call(words, span),
+            b"CALL" => self.call(block, words, span),
             b"LBL" if words.len() > 1 => self.fault(span, NOT_ALONE.0, NOT_ALONE.1),
             b"FN" => self.parameter_function(first, span),
             b"X" | b"Y" | b"Z" | b"IX" | b"IY" | b"IZ" => {
@@ -119,8 +121,24 @@ impl Reader<'_> {
         }
     }
 
-    fn call(&mut self, words: &[Word], span: &Range<usize>) {
+    fn call(&mut self, block: &Block, words: &[Word], span: &Range<usize>) {
         match words.get(1) {
+            Some(word) if word.is("PGM") => {
+                let name = called_name(self.file.bytes(), block, word);
+                let mut files = self.files.iter();
+                if name.is_empty() || files.any(|file| is_called(file, &name)) {
+                    return self.fault(
+                        span,
+                        "it runs another program",
+                        "give the programs together and write them flat (--expand)",
+                    );
+                }
+                self.found.outside_calls.push(OutsideCall {
+                    file: self.index,
+                    line: self.file.line_of(span.start),
+                    name: Some(name),
+                });
+            }
             Some(word) if word.is("LBL") => {
                 if words.get(2).is_some_and(|word| word.is("REP")) {
                     self.fault(span, "it runs a part of the program again", EXPAND);
@@ -132,8 +150,8 @@ impl Reader<'_> {
             }
             _ => self.fault(
                 span,
-                "it runs another program",
-                "give the programs together and write them flat (--expand)",
+                "it runs a program whose name is not stated",
+                "call it by its name (CALL PGM)",
             ),
         }
     }

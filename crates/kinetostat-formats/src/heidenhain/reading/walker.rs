@@ -17,6 +17,8 @@ pub(crate) struct Reader<'r> {
     pub found: &'r mut Found,
     pub options: &'r ReadOptions,
     pub frames: &'r Frames,
+    /// All files of the program.
+    pub files: &'r [SourceFile],
     pub file: &'r SourceFile,
     pub index: usize,
     pub unit_mm: f64,

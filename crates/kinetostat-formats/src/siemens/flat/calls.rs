@@ -9,7 +9,7 @@ use crate::refused_run::Behind;
 use crate::siemens::block::{Argument, Item, What};
 use crate::siemens::expression::Expression;
 use crate::siemens::flat::runner::{Fault, Level, Runner};
-use crate::siemens::flat::unresolved::{REASON, REMEDY, is_call, program_name};
+use crate::siemens::flat::unresolved::program_name;
 use crate::siemens::values::{Value, Variable};
 
 /// A subprogram that a block calls.
@@ -32,9 +32,6 @@ impl<'r> Runner<'r> {
             _ => &[],
         };
         let mut rest = &items[1..];
-        let numbered =
-            word.len() > 1 && word[0] == b'L' && word[1..].iter().all(|byte| byte.is_ascii_digit());
-        let by_name = word == b"PCALL";
         let called = match word.as_slice() {
             b"PCALL" => match (&first.what, rest.first()) {
                 (What::Name, Some(item)) => {
@@ -57,11 +54,8 @@ impl<'r> Runner<'r> {
         let called = program_name(&format!("{}.SPF", String::from_utf8_lossy(&called)));
         let is_value = matches!(first.what, What::Value { .. });
         let Some(unit) = self.names.get(&called).copied().filter(|_| !is_value) else {
-            let is_call = is_call(self.file(), first) || by_name;
-            return match (numbered || is_call) && !is_value {
-                true => Err(self.fault(&first.span, REASON, REMEDY)),
-                false => Ok(None),
-            };
+            // Of one that is in none of the files the reader says what is assumed.
+            return Ok(None);
         };
         let times = match rest {
             [] => 1,

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use crate::error::ProgramError;
 use crate::flat_run::{MOST_STEPS, Runs};
-use crate::model::slash_blocks::SlashBlocks;
+use crate::model::stated_value::told_of_values;
 use crate::options::ReadOptions;
 use crate::refused_run::{RefusedRun, with_corners};
 use crate::siemens::block::{Block, What};
@@ -14,7 +14,7 @@ use crate::siemens::files::whole_file;
 use crate::siemens::flat::corners::written_out;
 use crate::siemens::flat::runner::Runner;
 use crate::siemens::flat::structure::Unit;
-use crate::siemens::flat::unresolved::{note_calls, program_name};
+use crate::siemens::flat::unresolved::program_name;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 
@@ -48,12 +48,12 @@ const FLOW: [&str; 26] = [
 /// What cannot be run, in the order of files and lines. Behind a line that is refused the run goes on, unless what runs, or a value,
 /// depends on it.
 pub fn expand_siemens(files: &[SourceFile]) -> Result<FlatText, Vec<ProgramError>> {
-    run_within(files, (MOST_STEPS, SlashBlocks::Refused)).map_err(|refused| refused.faults)
+    run_within(files, &ReadOptions::default(), MOST_STEPS).map_err(|refused| refused.faults)
 }
 
 /// Expands a program with a limit of the executed lines.
 pub fn expand_within(files: &[SourceFile], most_steps: u64) -> Result<FlatText, Vec<ProgramError>> {
-    run_within(files, (most_steps, SlashBlocks::Refused)).map_err(|refused| refused.faults)
+    run_within(files, &ReadOptions::default(), most_steps).map_err(|refused| refused.faults)
 }
 
 /// Expands a program; a refused program is returned with the part that was written.
@@ -61,12 +61,13 @@ pub(crate) fn run_or_refused(
     files: &[SourceFile],
     options: &ReadOptions,
 ) -> Result<FlatText, RefusedRun> {
-    run_within(files, (MOST_STEPS, options.slash_blocks))
+    run_within(files, options, MOST_STEPS)
 }
 
 fn run_within(
     files: &[SourceFile],
-    (most_steps, slash_blocks): (u64, SlashBlocks),
+    options: &ReadOptions,
+    most_steps: u64,
 ) -> Result<FlatText, RefusedRun> {
     let is_main = |file: &&SourceFile| file.name().to_ascii_lowercase().ends_with(".mpf");
     let main = files.iter().position(|file| is_main(&file)).unwrap_or(0);
@@ -92,7 +93,6 @@ fn run_within(
         return Err(faults.into());
     }
     if !needs(file, &names) {
-        note_calls(file, &mut faults);
         let mut flat = FlatText::unchanged(file, main);
         // The text after the last line end is a line, too.
         flat.origins = (1..=file.line_count()).map(|line| (main, line)).collect();
@@ -103,9 +103,10 @@ fn run_within(
     if !faults.is_empty() && !units.iter().all(|unit| unit.runs) {
         return Err(faults.into());
     }
-    let mut runner = Runner::new(files, &units, names, (main, slash_blocks));
+    let mut runner = Runner::new(files, &units, names, (main, options));
     runner.run(most_steps);
-    let findings = runner.doubts.into_findings();
+    let mut findings = runner.doubts.into_findings();
+    findings.extend(told_of_values(&options.values, file.bytes()));
     let written = runner.written;
     written.into_flat(file, (faults, findings), |flat| written_out(flat, files))
 }

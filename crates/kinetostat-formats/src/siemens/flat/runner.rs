@@ -6,6 +6,7 @@ use std::ops::Range;
 use crate::error::ProgramError;
 use crate::flat_run::Written;
 use crate::model::slash_blocks::SlashBlocks;
+use crate::options::ReadOptions;
 use crate::siemens::block::What;
 use crate::siemens::expression::Expression;
 use crate::siemens::flat::drilling::{Doubts, Drilling};
@@ -81,10 +82,11 @@ impl<'r> Runner<'r> {
         files: &'r [SourceFile],
         units: &'r [Unit],
         names: BTreeMap<Vec<u8>, usize>,
-        (main, slash_blocks): (usize, SlashBlocks),
+        (main, options): (usize, &ReadOptions),
     ) -> Self {
         Self {
-            slash_blocks,
+            slash_blocks: options.slash_blocks,
+            variables: Variables::of(options),
             written: files.get(main).map_or_else(Written::default, Written::new),
             files,
             units,

@@ -27,8 +27,8 @@ fn blocks_that_move_the_tool_otherwise_are_refused_by_line() {
             "it runs a part of the program again; write the program flat first (--expand)",
         ),
         (
-            "CALL PGM OTHER",
-            "it runs another program; give the programs together and write them flat (--expand)",
+            "CALL SELECTED PGM",
+            "it runs a program whose name is not stated; call it by its name (CALL PGM)",
         ),
         (
             "FN 17: SYSWRITE ID 210 NR1 = +5",

@@ -304,10 +304,6 @@ fn runs_are_bounded_and_faults_name_their_line() {
             "FN 18: SYSREAD Q3 = ID270 NR1 IDX1\nL X+Q3\n",
             "line 3: `L X+Q3`: Q3 has no value",
         ),
-        (
-            "CALL PGM OTHER\n",
-            "the program `OTHER` that it calls is not among the files; give its file together",
-        ),
         ("L X+1 M99\n", "no cycle is defined"),
         (
             "LBL 1\nL X+1\nLBL 1\nCALL LBL 1 REP 2\n",

@@ -126,12 +126,13 @@ fn what_moves_the_tool_otherwise_is_refused_by_line() {
             "what runs depends on it; let the program be run once and written flat: --expand",
         ),
         ("WHILE R1<5", "--expand"),
-        ("L140(2)", "--expand"),
         ("REPEAT MARK P3", "--expand"),
         (
-            "MY_SUBPROGRAM(1)",
+            "MY_SUBPROGRAM X1",
             "it is not known: a subprogram, a variable without DEF, or a word of this machine",
         ),
+        ("CYCLE9971(1)", "its motions are the controller's cycle"),
+        ("TANGON(C)", "it may move the tool or its frame"),
         (
             "X=R7",
             "`R7` has no value that this program gives it; give it a value",

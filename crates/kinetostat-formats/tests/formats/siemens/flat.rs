@@ -236,18 +236,6 @@ fn what_cannot_be_run_is_refused_by_line() {
             "`R1` has no value that this program gives it",
         ),
         ("GOTOF AA\nX1\n", "the jump has no destination"),
-        (
-            "L20\n",
-            "line 1: `L20`: no file of a subprogram of this name is given, and it is no word of the control that is known; give its file together with the program (--subprograms FOLDER), or take the call out",
-        ),
-        (
-            "R1=1\nIF R1==1\nHOLE(5)\nENDIF\n",
-            "line 3: `HOLE(5)`: no file of a subprogram of this name",
-        ),
-        (
-            "PCALL HOLE(5)\n",
-            "line 1: `PCALL`: no file of a subprogram of this name",
-        ),
         ("CALL \"A\"\n", "what is called is stated by a text"),
         (
             "MCALL DRILL(5)\n",
@@ -296,20 +284,46 @@ fn what_cannot_be_run_is_refused_by_line() {
 }
 
 #[test]
-fn all_calls_without_a_file_are_named_where_nothing_else_is_run() {
-    let files = [SourceFile::new(
-        "m.mpf",
-        "G0 X1\nHOLE(5)\nG1 X2 F100\nOTHER\nM30\n",
-    )];
-    let lines: Vec<usize> = expand_siemens(&files)
-        .unwrap_err()
-        .iter()
-        .map(|fault| fault.line)
-        .collect();
-    assert_eq!(lines, [2, 4]);
+fn calls_without_a_file_stay_with_their_values() {
+    let text = "G0 X1\nR1=5\nHOLE(R1,\"A\")\nIF R1==5\nPCALL OTHER P2\nENDIF\nL6\nM30\n";
+    let flat = flat_of(&[("m.mpf", text)]);
+    let expected = "G0 X1\nHOLE(5,\"A\")\nPCALL OTHER P2\nL6\nM30\n";
+    assert_eq!(String::from_utf8_lossy(flat.file.bytes()), expected);
     // What is not run calls nothing.
     let text = "R1=0\nIF R1==1\nHOLE(5)\nENDIF\nM30\n";
     assert_eq!(flat_of(&[("m.mpf", text)]).file.bytes(), b"M30\n");
+}
+
+#[test]
+fn values_that_the_machine_alone_knows_may_be_stated() {
+    let text = "N1 G0 X0 Y0 Z5\nIF $AC_MEA==1 GOTOF AWAY\nG1 Z=-R7 F100\nWIDTH=WIDTH+1\nX=WIDTH\nAWAY: M30\n";
+    let mut options = ReadOptions::default();
+    for (name, value) in [("$ac_mea", 0.0), ("R7", 2.5), ("Width", 20.0), ("R9", 1.0)] {
+        let value = StatedValue::Number(value);
+        options.values.insert(name.to_owned(), value);
+    }
+    let files = vec![SourceFile::new("m.mpf", text)];
+    let flat = expand(Language::Siemens, files.clone(), &options)
+        .unwrap()
+        .unwrap();
+    let expected = "N1 G0 X0 Y0 Z5\nG1 Z=-2.5 F100\nX=21\nM30\n";
+    assert_eq!(String::from_utf8_lossy(flat.file.bytes()), expected);
+    let told: Vec<&str> = flat
+        .findings
+        .iter()
+        .map(|told| told.message.as_str())
+        .collect();
+    assert!(
+        told.iter()
+            .any(|told| told.starts_with("`R7` is 2.5, as is stated")),
+        "{told:?}"
+    );
+    assert!(
+        told.contains(&"a value of `R9` is stated, and the program does not name it"),
+        "{told:?}"
+    );
+    let without = expand(Language::Siemens, files, &ReadOptions::default()).unwrap_err();
+    assert_eq!(without[0].line, 2);
 }
 
 #[test]

@@ -164,7 +164,13 @@ impl Runner<'_> {
             ));
         }
         if times >= 1.0 {
-            let (file, line) = self.find_program(number)?;
+            let call = match times {
+                1.0 => format!("M98 P{number:04}"),
+                times => format!("M98 P{number:04} L{times}"),
+            };
+            let Some((file, line)) = self.find_or_keep(number, call.as_bytes())? else {
+                return Ok(Next::Line);
+            };
             let again = Opened::Repeated(times as u32 - 1);
             self.open(Frame {
                 numbered: self.frame().numbered,
@@ -175,7 +181,26 @@ impl Runner<'_> {
         Ok(Next::Line)
     }
 
-    pub fn find_program(&mut self, number: u32) -> Result<(usize, usize), ProgramError> {
+    /// A subprogram by its number; none where none of the files holds it: on Fanuc's controllers its call stays.
+    pub fn find_or_keep(
+        &mut self,
+        number: u32,
+        call: &[u8],
+    ) -> Result<Option<(usize, usize)>, ProgramError> {
+        let changes_places =
+            self.radius.refuses_cycles().is_some() || self.coordinates.refuses_cycles().is_some();
+        match self.find_program(number) {
+            Ok(found) => Ok(Some(found)),
+            Err(_) if self.options.dialect == Dialect::Fanuc && !changes_places => {
+                let origin = self.origin();
+                self.flat.add(call, origin)?;
+                Ok(None)
+            }
+            Err(missing) => Err(missing),
+        }
+    }
+
+    fn find_program(&mut self, number: u32) -> Result<(usize, usize), ProgramError> {
         if let Some(found) = self.in_sources(|source| source.programs.get(&number)) {
             return Ok(found);
         }
@@ -193,7 +218,10 @@ impl Runner<'_> {
         }
         Err(self.refuse(
             &format!("there is no subprogram O{number}, neither in the program nor as a file '{number:04}.ngc'"),
-            "put the file into the folder of the program, or name the folder of the subprograms",
+            match self.options.dialect {
+                Dialect::Undecided => "put the file into the folder of the program, or name the folder of the subprograms, or the dialect: with --dialect fanuc it is taken not to move the tool",
+                _ => "put the file into the folder of the program, or name the folder of the subprograms",
+            },
         ))
     }
 

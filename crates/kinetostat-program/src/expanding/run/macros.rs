@@ -104,7 +104,9 @@ impl Runner<'_> {
             ));
         }
         if times >= 1.0 {
-            let (file, line) = self.find_program(number as u32)?;
+            let Some((file, line)) = self.find_or_keep(number as u32, text)? else {
+                return Ok(true);
+            };
             self.open(Frame {
                 numbered: arguments,
                 arguments: Some(arguments),

@@ -24,7 +24,7 @@ impl Interpreter<'_> {
             BACK_BORING => 980,
             _ => 990,
         };
-        let is_carried = self.options.carries_cycles
+        let is_carried = self.options.of_fanuc_run
             && block.codes.retract_mode == Some(level)
             && block.codes.motion.is_none()
             && has(b"ZR")

@@ -27,6 +27,7 @@ impl Interpreter<'_> {
         self.note_what_is_known(program)?;
         self.warn_of_unknown_beginning();
         self.warn_of_moved_axes();
+        self.warn_of_calls_without_effect();
         self.warnings.extend(self.repeated.finish());
         let mut path = Path {
             // The spindle is along z of the part if all rotary axes are at zero.
@@ -44,6 +45,7 @@ impl Interpreter<'_> {
             part: None,
             units_assumed_on: self.units_assumed_on,
             unjudged_feed_on: self.unjudged_feed_on,
+            outside_calls: self.outside_calls,
         };
         self.tools.finish(&mut path, program, self.options)?;
         path.warnings.extend(path.rotary_findings());

@@ -45,10 +45,13 @@ impl Interpreter<'_> {
         if line.kind == LineKind::AfterEnd || program.words(line).is_empty() || skipped {
             return Ok(());
         }
-        let block = Block::of(program, index)?;
         if line.block_delete {
-            self.warn_block_delete(block.line_number);
+            self.warn_block_delete(program.number_of(index));
         }
+        if self.outside_call(program, index)? {
+            return Ok(());
+        }
+        let block = Block::of(program, index)?;
         self.run(&block)
     }
 

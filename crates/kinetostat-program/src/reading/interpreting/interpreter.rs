@@ -1,5 +1,7 @@
 //! Modal state while a program is read.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Vector3;
 
 use crate::path::moves::{Change, CoordinateWords, Event, Move, Warning};
@@ -44,6 +46,8 @@ pub(crate) struct Interpreter<'o> {
     pub(super) units_assumed_on: Option<usize>,
     /// Line of the first feed whose way is not judged.
     pub(super) unjudged_feed_on: Option<usize>,
+    /// Subprograms by number that are in none of the files, each with the first line that calls it.
+    pub(super) outside_calls: BTreeMap<u32, usize>,
 }
 
 /// Modal state that blocks leave for later ones.
@@ -88,6 +92,7 @@ impl<'o> Interpreter<'o> {
             warnings: Vec::new(),
             units_assumed_on: None,
             unjudged_feed_on: None,
+            outside_calls: BTreeMap::new(),
         }
     }
 

@@ -1,8 +1,12 @@
 //! Words beside M98 and M99: Fanuc runs them first, other controllers do not.
 
-use kinetostat_program::{Dialect, ExpandOptions, NoSubprograms, expand, expansion_faults};
+use kinetostat_program::{
+    Dialect, ExpandOptions, NoSubprograms, Path, Program, ReadOptions, Request, Unwatched,
+    WriteOptions, expand, expansion_faults, interpret, verify_written, write_corrected,
+};
+use nalgebra::Vector3;
 
-use super::fanuc::{fanuc, run};
+use super::fanuc::{BEGIN, fanuc, run};
 
 const SUB: &str = "M30\nO100\nY1.\nM99\n";
 
@@ -84,4 +88,71 @@ fn a_refused_line_is_one_fault() {
 fn m_beside_g65_is_an_argument() {
     let text = "G65 P9 M98 L2 X4.\nM30\nO9\nG0 X#24 Y#13\nM99\n";
     assert_eq!(fanuc(text), "G0 X4 Y98\nG0 X4 Y98\nM30\n");
+}
+
+/// A subprogram that none of the files holds: on Fanuc's controllers its call stays, and the tool is taken to stay where it is.
+#[test]
+fn calls_of_what_no_file_holds() {
+    let text = format!(
+        "{BEGIN}#1=5\nG1 X1. F100\nM8 M98 P9000\nN7 G65 P9810 L2 Z-#1 F50\nM98 P39001\nG1 Y2.\nM30\n"
+    );
+    let mut options = ExpandOptions::default();
+    options.dialect = Dialect::Fanuc;
+    let made = expand(text.as_str(), &options, &NoSubprograms).unwrap();
+    let flat = String::from_utf8_lossy(made.program.bytes()).into_owned();
+    let expected =
+        "G1 X1. F100\nM8\nM98 P9000\nN7 G65 P9810 L2 Z-5 F50\nM98 P9001 L3\nG1 Y2.\nM30\n";
+    assert!(flat.ends_with(expected), "{flat}");
+    options.reading.of_fanuc_run = true;
+    let path = interpret(&made.program, &options.reading).unwrap();
+    let first = flat.lines().position(|line| line == "M98 P9000").unwrap() + 1;
+    let calls: Vec<(u32, usize)> = path.outside_calls.clone().into_iter().collect();
+    assert_eq!(calls, [(9000, first), (9001, first + 2), (9810, first + 1)]);
+    let without = flat
+        .replace("M98 P9000\n", "")
+        .replace("M98 P9001 L3\n", "");
+    let without = without.replace("N7 G65 P9810 L2 Z-5 F50\n", "");
+    let plain = interpret(&Program::read(without).unwrap(), &ReadOptions::default()).unwrap();
+    let ends = |path: &Path| path.moves.iter().map(|one| one.end).collect::<Vec<_>>();
+    assert_eq!(ends(&path), ends(&plain));
+    // A correction leaves the calls as they are.
+    let mut writing = WriteOptions::default();
+    writing.header = None;
+    let field = |_: &Request| Ok(Vector3::new(0.25, 0.0, 0.5));
+    let written = write_corrected(&made.program, &path, &field, &writing, &Unwatched).unwrap();
+    verify_written(&made.program, &path, &written, &options.reading, &writing).unwrap();
+    let output = String::from_utf8(written.bytes).unwrap();
+    assert!(
+        output.contains("M98 P9000\nN7 G65 P9810 L2 Z-5 F50\nM98 P9001 L3\n"),
+        "{output}"
+    );
+    // One that is stated to move the tool is refused, as all of them are for other controllers and in a program that was not run.
+    let mut moves = options.clone();
+    moves.reading.moving_calls.insert(9810);
+    let refused = expand(text.as_str(), &moves, &NoSubprograms).unwrap_err();
+    assert_eq!(refused.found, "N7 G65 P9810 L2 Z-5 F50");
+    assert!(refused.reason.contains("O9810 moves the tool"), "{refused}");
+    let refused = interpret(&made.program, &ReadOptions::default()).unwrap_err();
+    assert!(
+        refused.reason.starts_with("M98 is a subroutine"),
+        "{refused}"
+    );
+    for dialect in [Dialect::LinuxCnc, Dialect::Undecided] {
+        options.dialect = dialect;
+        let text = format!("{BEGIN}G1 X1. F100\nM98 P9000\nM2\n");
+        let refused = expand(text, &options, &NoSubprograms).unwrap_err();
+        assert!(
+            refused.reason.contains("there is no subprogram O9000"),
+            "{refused}"
+        );
+    }
+    // A path that is led aside has no place where a call could be.
+    options.dialect = Dialect::Fanuc;
+    options.tool_diameters_mm.insert(1, 2.0);
+    let text = format!("{BEGIN}G41 D1 G1 X10. F100\nX20.\nM98 P9000\nX30.\nG40 X0\nM30\n");
+    let refused = expand(text, &options, &NoSubprograms).unwrap_err();
+    assert!(
+        refused.reason.contains("there is no subprogram O9000"),
+        "{refused}"
+    );
 }

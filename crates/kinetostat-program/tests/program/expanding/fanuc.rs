@@ -109,7 +109,7 @@ fn what_dialects_disagree_on_is_refused_with_both_readings() {
             ["takes its place", "Fanuc adds"],
         ),
         ("G65 P9\n", Dialect::LinuxCnc, ["LinuxCNC has no G65", ""]),
-        ("G65 P9\n", Dialect::Fanuc, ["no subprogram O9", ""]),
+        ("G65 P9\n", Dialect::Undecided, ["no subprogram O9", ""]),
         ("G65 A1\n", Dialect::Fanuc, ["calls no subprogram", ""]),
         ("G65 P9 I1 I2\n", Dialect::Fanuc, ["comes twice", "II"]),
         ("G66 P9\n", Dialect::Fanuc, ["G66", "every move"]),

@@ -230,7 +230,7 @@ fn borings_that_only_the_control_makes_stay_as_they_are_written() {
         |text: &str, reading: &ReadOptions| interpret(&Program::read(text).unwrap(), reading);
     let error = read(text, &reading).unwrap_err();
     assert!(error.reason.contains("canned cycle"), "{error}");
-    reading.carries_cycles = true;
+    reading.of_fanuc_run = true;
     let path = read(text, &reading).unwrap();
     assert_eq!(
         (path.moves[1].kind, path.moves[1].known),
@@ -255,7 +255,7 @@ fn a_cycle_as_it_is_written_among_corrected_moves() {
     options.dialect = Dialect::Fanuc;
     let text = format!("{BEGIN}M29 S500\nG84 X9. Y8. Z-3. R1. F500\nG80\nG1 X20.\n");
     let made = expand(text, &options, &NoSubprograms).unwrap();
-    options.reading.carries_cycles = true;
+    options.reading.of_fanuc_run = true;
     let mut writing = WriteOptions::default();
     writing.header = None;
     let field = |_: &Request| Ok(Vector3::new(0.25, 0.0, 0.5));

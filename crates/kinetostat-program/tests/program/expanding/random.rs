@@ -192,7 +192,7 @@ pub fn check(seed: u64) -> Result<bool, String> {
     let mut options = ExpandOptions::default();
     options.most_blocks = 500;
     options.tool_diameters_mm.insert(1, 1.5);
-    options.reading.carries_cycles = seed % 3 == 2;
+    options.reading.of_fanuc_run = seed % 3 == 2;
     options.dialect = [Dialect::Undecided, Dialect::LinuxCnc, Dialect::Fanuc][(seed % 3) as usize];
     if seed.is_multiple_of(2) {
         options.reading.machine_zero_mm = Some(Vector3::new(10.0, 20.0, 30.0));
