@@ -63,6 +63,7 @@ impl Parsed {
             declarations: Vec::new(),
             values: BTreeMap::new(),
             outside_calls: Vec::new(),
+            unjudged_feed_on: None,
             ran: Vec::new(),
             slash_blocks: SlashBlocks::default(),
             rotary: StatedAxes::default(),

@@ -47,6 +47,8 @@ pub struct RobotProgram {
     pub(crate) values: BTreeMap<String, StatedValue>,
     /// Calls that no file defines.
     pub(crate) outside_calls: Vec<OutsideCall>,
+    /// First line of a feed whose way is the controller's own.
+    pub(crate) unjudged_feed_on: Option<usize>,
     /// Statements beside the motions in the order in which they ran, of languages that are run.
     pub(crate) ran: Vec<RanStatement>,
     /// What it says of the rotary axes of a machine.

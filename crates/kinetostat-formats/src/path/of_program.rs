@@ -109,6 +109,7 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
     let findings = made.rotary_findings();
     made.warnings.extend(findings);
     made.warnings.extend(turns_alone(&made.moves));
+    made.unjudged_feed_on = program.unjudged_feed_on;
     let source = program.files.get(file).into_iter();
     let changes_of = |source| program.language.spindle_changes(source);
     made.spindle_changes.extend(source.flat_map(changes_of));

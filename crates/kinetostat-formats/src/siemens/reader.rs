@@ -47,6 +47,7 @@ pub(crate) fn parse_siemens(files: Vec<SourceFile>, options: &ReadOptions) -> Pa
         faults,
         mut findings,
         outside_calls,
+        unjudged_feed_on,
         rotary,
         ..
     } = scan(&files, options);
@@ -57,5 +58,6 @@ pub(crate) fn parse_siemens(files: Vec<SourceFile>, options: &ReadOptions) -> Pa
     let mut parsed = parsed.with_calls(outside_calls, &options.moving_calls);
     parsed.program.slash_blocks = options.slash_blocks;
     parsed.program.rotary = rotary;
+    parsed.program.unjudged_feed_on = unjudged_feed_on;
     parsed
 }

@@ -12,6 +12,7 @@ use crate::options::ReadOptions;
 use crate::siemens::block::{Block, Item, What};
 use crate::siemens::declarations::define;
 use crate::siemens::files::whole_file;
+use crate::siemens::flat::drilling::KEPT;
 use crate::siemens::flat::unresolved::{called_by, program_name};
 use crate::siemens::plain_turns::finding_of;
 use crate::siemens::state::State;
@@ -150,6 +151,11 @@ impl Reader<'_> {
             let (item, alone) = (item.clone(), item.span == first.span);
             return self.statement(&item.span, &item.name, alone, tokens);
         }
+        if let [cycle] = block.items.as_slice()
+            && KEPT.contains(&self.name(&cycle.name).as_str())
+        {
+            return self.kept_cycle(cycle);
+        }
         if let Some(called) = called_by(self.file, &block.items) {
             return self.outside_call(called);
         }
@@ -168,6 +174,29 @@ impl Reader<'_> {
             return;
         }
         self.act(block, words, (code, feed));
+    }
+
+    /// A cycle whose way is the control's own: it begins over the hole and ends above it.
+    fn kept_cycle(&mut self, cycle: &Item) {
+        let name = self.name(&cycle.name);
+        let normal = self.state.normal;
+        let is_over = (0..3).all(|axis| axis == normal || self.state.place[axis].is_some());
+        if !is_over || self.state.oriented || self.state.steps {
+            let reason = match (is_over, self.state.oriented) {
+                (false, _) => "where the hole is that it drills is not known",
+                (true, true) => "along which axis it drills under TRAORI is not followed",
+                (true, false) => "under G91 the block behind it counts from where it ends",
+            };
+            return self.fault(
+                &cycle.span,
+                reason,
+                "write G90 and the place over the hole before it",
+            );
+        }
+        self.state.place[normal] = None;
+        let line = self.file.line_of(cycle.span.start);
+        self.out.unjudged_feed_on.get_or_insert(line);
+        self.finding(&cycle.span, format!("{name} stays as it is written: its way is the control's own, and not corrected; the tool stands over the corrected place"));
     }
 
     /// A call of a subprogram, which is followed only by a run.

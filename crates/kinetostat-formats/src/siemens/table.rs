@@ -1,5 +1,6 @@
 //! Treatment of each word of the SINUMERIK 840D.
 
+use crate::siemens::flat::drilling::KEPT;
 use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{Alike, StatementRow, Treatment, alike, count, rows};
 
@@ -145,13 +146,14 @@ const GROUPS: &[Alike] = &[
         "IF", "ELSE", "ENDIF", "WHILE", "ENDWHILE", "FOR", "ENDFOR", "REPEAT", "REPEATB", "UNTIL",
         "LOOP", "ENDLOOP", "GOTO", "GOTOF", "GOTOB", "GOTOC", "GOTOS", "CASE", "CALL", "L", "P",
     ]),
-    alike(DRILL, CYCLES, &["MCALL", "CYCLE81", "CYCLE82", "CYCLE83"]),
+    alike(DRILL, CYCLES, &["MCALL", "CYCLE81", "CYCLE82", "CYCLE83", "HOLES1", "HOLES2"]),
+    alike(Carried, CYCLES, &KEPT),
     alike(CYCLE, CYCLES, &[
-        "CYCLE84", "CYCLE85", "CYCLE86", "CYCLE87", "CYCLE88", "CYCLE89", "CYCLE90", "CYCLE60",
+        "CYCLE90", "CYCLE60",
         "CYCLE61", "CYCLE62", "CYCLE63", "CYCLE64", "CYCLE70", "CYCLE71", "CYCLE72", "CYCLE73",
         "CYCLE74", "CYCLE75", "CYCLE76", "CYCLE77", "CYCLE78", "CYCLE79", "CYCLE801", "CYCLE802",
-        "CYCLE840", "CYCLE899", "CYCLE92", "CYCLE93", "CYCLE94", "CYCLE95", "CYCLE951", "CYCLE97",
-        "CYCLE98", "CYCLE977", "CYCLE978", "HOLES1", "HOLES2", "POCKET1", "POCKET2", "POCKET3",
+        "CYCLE899", "CYCLE92", "CYCLE93", "CYCLE94", "CYCLE95", "CYCLE951", "CYCLE97",
+        "CYCLE98", "CYCLE977", "CYCLE978", "POCKET1", "POCKET2", "POCKET3",
         "POCKET4", "SLOT1", "SLOT2", "LONGHOLE",
     ]),
     alike(SPLINE, FUNDAMENTALS, &["CT", "TURN"]),

@@ -28,6 +28,8 @@ pub(crate) struct Scan {
     pub written: Vec<Written>,
     pub findings: Vec<Finding>,
     pub faults: Vec<ProgramError>,
+    /// First line of a feed whose way is the control's own.
+    pub unjudged_feed_on: Option<usize>,
     /// Calls of subprograms that are in none of the files.
     pub outside_calls: Vec<OutsideCall>,
     /// Rotary axis positions stated by motions.

@@ -120,7 +120,7 @@ pub(crate) fn conclude(
     }
     if let Some(line) = task.path().unjudged_feed_on {
         let text = format!(
-            "Feeds whose start or way is not known, the first on line {line}, cut nothing that counts: no error is computed along them. Where they start is known with the places of the machine (--machine-zero-mm)."
+            "Feeds whose start or way is not known, the first on line {line}, cut nothing that counts: no error is computed along them. In G-code the places of the machine say where they start (--machine-zero-mm)."
         );
         result.assume(Assumption {
             is_critical: true,

@@ -72,6 +72,18 @@ impl<'r> Runner<'r> {
         }))
     }
 
+    /// The subprogram that MCALL calls behind each block with a place, in the program that states it.
+    pub(super) fn modal_call(&self) -> Result<Option<Call<'r>>, Fault> {
+        let Some(((unit, line), _)) = self
+            .modal_call
+            .filter(|(_, level)| *level == self.levels.len())
+        else {
+            return Ok(None);
+        };
+        let units = self.units;
+        self.call(&units[unit].lines[line].block.items[1..])
+    }
+
     fn not_alone(&self, item: &Item) -> Fault {
         self.fault(
             &item.span,
@@ -153,6 +165,8 @@ impl<'r> Runner<'r> {
         if self.levels.is_empty() {
             return Ok(());
         }
+        let depth = self.levels.len();
+        self.modal_call = self.modal_call.filter(|(_, level)| *level <= depth);
         if units[level.unit].saves {
             self.restore(&level);
         }

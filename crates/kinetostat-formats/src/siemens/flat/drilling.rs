@@ -1,4 +1,5 @@
-//! Drilling cycles as blocks: CYCLE81 (centering), CYCLE82 (with dwell), CYCLE83 (deep holes).
+//! Drilling cycles as blocks: CYCLE81 (centering), CYCLE82 (with dwell), CYCLE83 (deep holes). Cycles whose way is the control's own (taps,
+//! borings) stay, one call over each hole, between the blocks that lead to them and away.
 //!
 //! CYCLE83 withdraws within the hole (VARI=0, chips are broken) by G1 at the feed of the program, by 1 mm where _VRT states no other way,
 //! and out of the hole (VARI=1) by G0; with DAM = 0 all steps are as long as the first. A depth by DPR goes before one by DP. This is
@@ -24,6 +25,19 @@ pub(super) struct Drilling {
     /// G9 at the depth.
     pub exact: bool,
     pub deep: Option<Deep>,
+    /// The call of a cycle that stays, with its numbers.
+    pub kept: Option<String>,
+}
+
+/// Cycles whose way is the control's own: with a tap in its chuck or in compensating one, and borings.
+pub(crate) const KEPT: [&str; 7] = [
+    "CYCLE84", "CYCLE840", "CYCLE85", "CYCLE86", "CYCLE87", "CYCLE88", "CYCLE89",
+];
+
+/// True if a word in capitals is a cycle that drills one hole where it is called.
+pub(super) fn is_drilling(word: &[u8]) -> bool {
+    matches!(word, b"CYCLE81" | b"CYCLE82" | b"CYCLE83")
+        || KEPT.iter().any(|own| own.as_bytes() == word)
 }
 
 /// Parameters of CYCLE83.

@@ -19,14 +19,14 @@ use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 
 /// Words that say what runs.
-const FLOW: [&str; 26] = [
+const FLOW: [&str; 28] = [
     "IF", "ELSE", "ENDIF", "WHILE", "ENDWHILE", "FOR", "ENDFOR", "REPEAT", "REPEATB", "UNTIL",
     "LOOP", "ENDLOOP", "GOTO", "GOTOF", "GOTOB", "GOTOC", "GOTOS", "CASE", "CALL", "PCALL",
-    "MCALL", "CYCLE81", "CYCLE82", "CYCLE83", "L", "P",
+    "MCALL", "CYCLE81", "CYCLE82", "CYCLE83", "HOLES1", "HOLES2", "L", "P",
 ];
 
 /// Runs a SINUMERIK program once and writes it flat: without jumps, loops, subprograms, variables, the drilling cycles CYCLE81,
-/// CYCLE82 and CYCLE83, and corners between two lines that are rounded or broken (RND, CHF, CHR). The program is the first file that ends in `.mpf`, or the first; the others are its subprograms, by their
+/// CYCLE82 and CYCLE83, rows and circles of holes (HOLES1, HOLES2), and corners between two lines that are rounded or broken (RND, CHF, CHR). The program is the first file that ends in `.mpf`, or the first; the others are its subprograms, by their
 /// names. What needs none of that comes back byte for byte.
 ///
 /// Expressions become numbers with up to nine decimals; frames (TRANS, ROT) and all else stay as they are. At most 5 million

@@ -1,7 +1,7 @@
 //! Expansion of a drilling cycle call to blocks.
 
 use crate::siemens::block::{Argument, Item, What};
-use crate::siemens::flat::drilling::{Deep, Drilling};
+use crate::siemens::flat::drilling::{Deep, Drilling, KEPT};
 use crate::siemens::flat::runner::{Fault, Runner};
 use crate::siemens::place::number_text;
 
@@ -43,7 +43,10 @@ pub(super) fn drilling_of(runner: &Runner<'_>, item: &Item) -> Result<Drilling, 
             "the hole does not go from the reference plane away from where it withdraws to",
         ));
     }
+    let kept = KEPT.iter().find(|own| own.as_bytes() == name);
+    let kept = kept.map(|own| runner.call_text(own, arguments));
     let known = match name.as_slice() {
+        _ if kept.is_some() => arguments.len(),
         b"CYCLE81" => 5,
         b"CYCLE82" => 6,
         _ => 17,
@@ -60,14 +63,15 @@ pub(super) fn drilling_of(runner: &Runner<'_>, item: &Item) -> Result<Drilling, 
         begin: surface + way * safety,
         surface,
         depth,
-        dwell: match known {
-            6 => or_zero(5)?,
+        dwell: match name.as_slice() {
+            b"CYCLE82" => or_zero(5)?,
             _ => 0.0,
         },
-        exact: known == 5,
+        exact: name == b"CYCLE81",
         deep: None,
+        kept,
     };
-    if known == 17 {
+    if name == b"CYCLE83" {
         let by = or_zero(6)?.abs();
         let first = match (by > 0.0, value(5)?) {
             (true, _) => surface - way * by,
@@ -145,6 +149,22 @@ fn dwell(time: f64) -> Option<String> {
 }
 
 impl Runner<'_> {
+    /// A call of a cycle with numbers in place of expressions.
+    fn call_text(&self, name: &str, arguments: &[Argument]) -> String {
+        let text = |argument: &Argument| {
+            let known = argument
+                .value
+                .as_ref()
+                .and_then(|value| self.number(value).ok());
+            match known {
+                Some(number) => number_text(number),
+                None => String::from_utf8_lossy(self.file().part(&argument.span)).into_owned(),
+            }
+        };
+        let arguments: Vec<String> = arguments.iter().map(text).collect();
+        format!("{name}({})", arguments.join(","))
+    }
+
     /// Notes what is in doubt of a cycle where the tool is.
     pub(super) fn doubt(&mut self, drilling: &Drilling) {
         let Some(deep) = &drilling.deep else {
@@ -169,13 +189,14 @@ impl Runner<'_> {
         let to = |at: f64| format!("{axis}=AC({})", number_text(at));
         let mut blocks = vec![format!("G0 {}", to(drilling.begin))];
         self.doubt(drilling);
-        match &drilling.deep {
-            None => {
+        match (&drilling.deep, &drilling.kept) {
+            (_, Some(call)) => blocks.push(call.clone()),
+            (None, _) => {
                 let exact = if drilling.exact { "G9 " } else { "" };
                 blocks.push(format!("G1 {exact}{}", to(drilling.depth)));
                 blocks.extend(dwell(drilling.dwell));
             }
-            Some(deep) => {
+            (Some(deep), _) => {
                 let depths = drilling.depths(deep).ok_or_else(|| {
                     self.fault(
                         &self.span(),

@@ -1,8 +1,10 @@
 //! The blocks of a program as they run: numbers in place of expressions, without labels and assignments.
 
+use crate::flat_run::Runs;
 use crate::model::slash_blocks::{SLASHED, SlashBlocks};
 use crate::siemens::block::{Block, Item, What};
 use crate::siemens::expression::Expression;
+use crate::siemens::flat::drilling::is_drilling;
 use crate::siemens::flat::holes::drilling_of;
 use crate::siemens::flat::modes::is_frame;
 use crate::siemens::flat::runner::{Fault, Runner};
@@ -86,6 +88,10 @@ impl Runner<'_> {
         });
         if let (Some(drilling), true) = (self.drilling.clone(), places) {
             self.drill_here(&drilling)?;
+        }
+        if let (End::No, true, Some(call)) = (&end, places, self.modal_call()?) {
+            self.enter(&call)?;
+            return Ok(false);
         }
         match (end, in_main) {
             (End::No, _) => return Ok(true),
@@ -202,28 +208,39 @@ impl Runner<'_> {
     fn drill(&mut self, items: &[Item]) -> Result<bool, Fault> {
         let name = |item: &Item| self.file().part(&item.name).to_ascii_uppercase();
         let first = name(&items[0]);
-        let is_cycle = |name: &[u8]| matches!(name, b"CYCLE81" | b"CYCLE82" | b"CYCLE83");
         match items {
             [item] if first == b"MCALL" && item.what == What::Name => {
                 self.drilling = None;
+                self.modal_call = None;
                 Ok(true)
             }
-            [_, cycle] if first == b"MCALL" && is_cycle(&name(cycle)) => {
+            [_, cycle] if first == b"MCALL" && is_drilling(&name(cycle)) => {
                 let drilling = drilling_of(self, cycle)?;
                 self.drilling = Some(drilling);
+                self.modal_call = None;
                 Ok(true)
             }
-            [cycle] if is_cycle(&first) => {
+            [cycle] if is_drilling(&first) => {
                 let drilling = drilling_of(self, cycle)?;
                 self.drill_here(&drilling)?;
+                Ok(true)
+            }
+            [pattern] if matches!(first.as_slice(), b"HOLES1" | b"HOLES2") => {
+                self.holes(pattern)?;
+                Ok(true)
+            }
+            [_, _] if first == b"MCALL" && self.call(&items[1..])?.is_some() => {
+                self.drilling = None;
+                let level = self.levels.len();
+                self.modal_call = self.at().map(|place| (place, level));
                 Ok(true)
             }
             [item, ..] if first == b"MCALL" => Err(self.fault(
                 &item.span,
                 "what it calls at each place, is not followed",
-                "write the calls out, or drill by CYCLE81, CYCLE82 or CYCLE83",
+                "write the calls out, give the file of the subprogram, or drill by CYCLE81 to CYCLE89",
             )),
-            [.., cycle] if items.iter().any(|item| is_cycle(&name(item))) => Err(self.fault(
+            [.., cycle] if items.iter().any(|item| is_drilling(&name(item))) => Err(self.fault(
                 &cycle.span,
                 "more stands in the block of a cycle",
                 "write the cycle as a block of its own",

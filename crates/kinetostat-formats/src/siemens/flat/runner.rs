@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::error::ProgramError;
-use crate::flat_run::Written;
+use crate::flat_run::{Place, Written};
 use crate::model::slash_blocks::SlashBlocks;
 use crate::options::ReadOptions;
 use crate::siemens::block::What;
@@ -71,8 +71,10 @@ pub(super) struct Runner<'r> {
     pub modes: Modes,
     pub frames: Frames,
     pub feed: Option<f64>,
-    /// MCALL in force.
+    /// MCALL of a cycle in force.
     pub drilling: Option<Drilling>,
+    /// MCALL of a subprogram in force: its place, and how many programs deep it stands.
+    pub modal_call: Option<(Place, usize)>,
     pub doubts: Doubts,
     pub slash_blocks: SlashBlocks,
 }

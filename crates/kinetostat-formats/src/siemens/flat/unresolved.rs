@@ -37,7 +37,12 @@ pub(crate) fn called(file: &SourceFile) -> Vec<String> {
         };
         let name =
             |item: &Item| String::from_utf8_lossy(file.part(&item.name)).to_ascii_uppercase();
-        names.extend(called_by(file, &block.items).map(name));
+        // MCALL calls behind each block with a place.
+        let items = match block.items.split_first() {
+            Some((first, called)) if name(first) == "MCALL" => called,
+            _ => &block.items,
+        };
+        names.extend(called_by(file, items).map(name));
     }
     names
 }

@@ -113,12 +113,12 @@ fn what_moves_the_tool_otherwise_is_refused_by_line() {
             "let the cycle be written as blocks: --expand",
         ),
         (
-            "CYCLE84(10,0,2,-5)",
+            "CYCLE90(10,0,2,-5)",
             "its motions are the controller's cycle, which is not followed",
         ),
         ("POCKET3(1,2,3)", "its motions are the controller's cycle"),
         (
-            "HOLES2(0,0,5)",
+            "LONGHOLE(0,0,5)",
             "let the CAM system write its motions as blocks",
         ),
         (

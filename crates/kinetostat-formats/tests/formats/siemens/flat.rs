@@ -38,7 +38,7 @@ fn what_runs_straight_on_comes_back_byte_for_byte() {
         "G1 X1\r\n; a\r\n",
         "\n\n",
         "R1=5\nX=R1",
-        "CYCLE84(1)\n",
+        "CYCLE90(1)\n",
     ] {
         let found = flat_of(&[("main.mpf", text), ("other.spf", "M17")]);
         assert!(!found.changed, "{text}");
@@ -281,6 +281,83 @@ fn what_cannot_be_run_is_refused_by_line() {
         let found = fault(text);
         assert!(found.contains(part), "{text}: {found}");
     }
+}
+
+/// Taps and borings are the control's own: their calls stay, over each hole.
+#[test]
+fn cycles_of_the_control_stay_over_their_holes() {
+    let text = "G90 G0 X0 Y0 Z50\nR1=3\nG1 F60\nMCALL CYCLE84(R1,0,2,-30,,,3,,1.25,0,500,500)\nX10\nY55\nMCALL\nX70\nM30\n";
+    let flat = flat_of(&[("m.mpf", text)]);
+    let hole = "G0 Z=AC(2)\nCYCLE84(3,0,2,-30,,,3,,1.25,0,500,500)\nG0 Z=AC(3)\nG1\n";
+    let expected = format!("G90 G0 X0 Y0 Z50\nG1 F60\nX10\n{hole}Y55\n{hole}X70\nM30\n");
+    assert_eq!(String::from_utf8_lossy(flat.file.bytes()), expected);
+    let program = read_siemens(vec![flat.file], &ReadOptions::default()).unwrap();
+    let ends: Vec<[f64; 3]> = program
+        .motions
+        .iter()
+        .map(|motion| motion.target.pose().unwrap().position_mm.into())
+        .collect();
+    let over = |x: f64, y: f64| [[x, y, 2.0], [x, y, 3.0]];
+    assert_eq!(ends[..2], [[0.0, 0.0, 50.0], [10.0, 0.0, 50.0]]);
+    assert_eq!(ends[2..4], over(10.0, 0.0));
+    assert_eq!(ends[5..7], over(10.0, 55.0));
+    assert_eq!(ends[7], [70.0, 55.0, 3.0]);
+    // Where the cycle ends, the control says: the way from there is not known.
+    assert_eq!(program.motions[3].follows, None);
+    let told = program
+        .findings
+        .iter()
+        .filter(|told| told.message.contains("CYCLE84 stays"));
+    assert_eq!(told.count(), 2);
+    let path = path_of(&program, &PathOptions::default()).unwrap().path;
+    assert_eq!(path.unjudged_feed_on, Some(5));
+    for text in [
+        "G0 X0 Z5\nCYCLE84(3,0,2,-30)\n",
+        "G91 G0 X0 Y0 Z5\nCYCLE84(3,0,2,-30)\n",
+    ] {
+        let files = vec![SourceFile::new("m.mpf", text)];
+        let refused = read_siemens(files, &ReadOptions::default()).unwrap_err();
+        assert!(refused.iter().any(|fault| fault.line == 2), "{refused:?}");
+    }
+}
+
+#[test]
+fn rows_and_circles_of_holes() {
+    let hole = "G0 Z=AC(2)\nG1 G9 Z=AC(-5)\nG0 Z=AC(10)\n";
+    let of = |pattern: &str| {
+        let text = format!("G0 X0 Y0 Z10 F100\nMCALL CYCLE81(10,0,2,-5)\n{pattern}\nMCALL\nM30\n");
+        let flat = flat_of(&[("m.mpf", &text)]);
+        let text = String::from_utf8_lossy(flat.file.bytes()).replace(hole, "");
+        let places = text.strip_prefix("G0 X0 Y0 Z10 F100\n").unwrap();
+        places.strip_suffix("M30\n").unwrap().to_owned()
+    };
+    assert_eq!(
+        of("HOLES1(20,30,90,10,25,3)"),
+        "G0 X=AC(20) Y=AC(40)\nG0 X=AC(20) Y=AC(65)\nG0 X=AC(20) Y=AC(90)\n"
+    );
+    assert_eq!(
+        of("HOLES2(5,6,10,0,,4)"),
+        "G0 X=AC(15) Y=AC(6)\nG0 X=AC(5) Y=AC(16)\nG0 X=AC(-5) Y=AC(6)\nG0 X=AC(5) Y=AC(-4)\n"
+    );
+    assert_eq!(
+        of("HOLES2(0,0,10,90,90,2)"),
+        "G0 X=AC(0) Y=AC(10)\nG0 X=AC(-10) Y=AC(0)\n"
+    );
+    assert!(fault("HOLES1(20,30,90,10,25,3)\n").contains("no cycle is in force"));
+    assert!(fault("MCALL CYCLE81(10,0,2,-5)\nHOLES1(20,30,90,10,25,0)\n").contains("(NUM)"));
+}
+
+/// A subprogram under MCALL runs behind each block with a place, and not within itself.
+#[test]
+fn a_subprogram_runs_at_each_place() {
+    let main = "G0 X0 Y0 Z9\nMCALL DRILL(4)\nX10\nF100\nY20\nMCALL\nX30\nM30\n";
+    let sub = "PROC DRILL(REAL DEPTH)\nG1 X=IC(1) Z=-DEPTH\nG0 Z9\nRET\n";
+    let flat = flat_of(&[("m.mpf", main), ("DRILL.SPF", sub)]);
+    let expected =
+        "G0 X0 Y0 Z9\nX10\nG1 X=IC(1) Z=-4\nG0 Z9\nF100\nY20\nG1 X=IC(1) Z=-4\nG0 Z9\nX30\nM30\n";
+    assert_eq!(String::from_utf8_lossy(flat.file.bytes()), expected);
+    let main = SourceFile::new("m.mpf", main);
+    assert_eq!(called_files(Language::Siemens, &main), ["DRILL.SPF"]);
 }
 
 #[test]
