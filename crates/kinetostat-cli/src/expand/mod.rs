@@ -5,7 +5,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use kinetostat_formats::{FileForm, Language, SourceFile, language_of};
+use kinetostat_formats::{FileForm, FlatText, Language, SourceFile, language_of, read};
 use kinetostat_machining::number::counted;
 use nalgebra::Vector3;
 
@@ -20,14 +20,14 @@ use crate::job::output_paths::FLAT_PROGRAM;
 use crate::job::reading::reading;
 use crate::job::robot::called_files::with_called_files;
 use crate::job::robot::read_once::Reading;
-use crate::job::robot::read_program::{flat_text, notes_of};
-use crate::job::robot::settings::settings as robot_settings;
+use crate::job::robot::read_program::{flat_text, notes_of, of_calls, refused};
+use crate::job::robot::settings::{moving_subprograms, settings as robot_settings};
 use crate::job::robot::source::{RobotSource, slash_blocks};
 use crate::job::robot_arguments::{RobotArgs, StatedArgs};
 use crate::job::setting::line_count;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, wrapped};
-use crate::ui::screen::print_bytes;
+use crate::ui::screen::{Stream, print, print_bytes};
 
 pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
     let bytes = InputFiles::default().bytes("program", &args.program)?;
@@ -51,7 +51,7 @@ pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
         )));
     }
     let mut settings = settings(None, &args.with, &reading(None, &args.reading)?)?;
-    settings.options.reading.moving_calls = args.stated.moving_subprograms(None)?;
+    settings.options.reading.moving_calls = moving_subprograms(None, &args.stated)?;
     let done = flattened(bytes, (&args.program, &name), &settings)?;
     let mut inputs = vec![args.program.clone()];
     inputs.extend(done.paths.iter().cloned());
@@ -106,7 +106,11 @@ fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<(
     let called = with_called_files(&mut source, &args.program, &folders)?;
     source.settings.reading.slash_blocks = slash_blocks(None, &args.reading);
     let (text, flat) = flat_text(&source, !args.with.no_comments)?;
+    let assumed = assumed_of_calls(&source, &text)?;
     let Some(out) = &args.out else {
+        if let Some(assumed) = &assumed {
+            print(Stream::Err, &item(assumed))?;
+        }
         return print_bytes(text.file.bytes());
     };
     let called = called.into_iter().map(|(path, _)| path);
@@ -128,7 +132,23 @@ fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<(
         let found = format!("line {}: {}", note.line, note.text);
         said.push_str(&item(&flat.with_sources(&found)));
     }
+    if let Some(assumed) = &assumed {
+        said.push_str(&item(assumed));
+    }
     print_bytes((said + &written(&paths)).as_bytes())
+}
+
+/// What is assumed of calls that none of the files holds; where the user says that one moves the tool, the program is read, and refused as it
+/// would be by other commands.
+fn assumed_of_calls(source: &RobotSource, text: &FlatText) -> Answer<Option<String>> {
+    let reading = &source.settings.reading;
+    match read(source.language, vec![text.file.clone()], reading) {
+        Ok(program) => Ok(of_calls(&program).map(|assumed| assumed.text)),
+        Err(all) if !reading.moving_calls.is_empty() => {
+            Err(refused(&all, |fault| fault.reason.as_str()))
+        }
+        Err(_) => Ok(None),
+    }
 }
 
 fn summary(name: &str, done: &Flattened) -> String {

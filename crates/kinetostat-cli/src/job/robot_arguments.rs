@@ -1,6 +1,5 @@
 //! Options for programs of robots.
 
-use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use clap::{ArgAction, Args, ValueEnum};
@@ -8,9 +7,7 @@ use kinetostat::Directions;
 use kinetostat_formats::{BetweenRows, StatedValue};
 use serde::Deserialize;
 
-use crate::job::job_file::JobFile;
 use crate::options::number;
-use crate::ui::failure::{Answer, Failure};
 
 /// Corrected directions of the tool's pose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ValueEnum)]
@@ -72,21 +69,6 @@ impl StatedArgs {
     /// The option that was given and means nothing to a program in G-code.
     pub(crate) fn of_others(&self) -> Option<&'static str> {
         (!self.values.is_empty()).then_some("--set")
-    }
-
-    /// Numbers of the subprograms of G-code that move the tool, by the options and a job.
-    pub(crate) fn moving_subprograms(&self, job: Option<&JobFile>) -> Answer<BTreeSet<u32>> {
-        let in_job = job.iter().flat_map(|j| j.job.calls.keys());
-        let in_job = in_job.map(|name| name.get_ref());
-        let number = |name: &String| {
-            let digits = name.trim_start_matches(['O', 'o']);
-            digits.parse::<u32>().map_err(|_| {
-                Failure::input(format!(
-                    "'{name}' is stated to move the tool ([calls] in the job, --call), and a subprogram of G-code has a number: write it as O9810"
-                ))
-            })
-        };
-        self.moving_calls.iter().chain(in_job).map(number).collect()
     }
 }
 

@@ -29,6 +29,7 @@ use crate::job::robot::frames::RobotFrames;
 use crate::job::robot::parts::join_parts;
 use crate::job::robot::read_once::Reading;
 use crate::job::robot::read_program::{flat_text, notes_of, read_robot};
+use crate::job::robot::settings::moving_subprograms;
 use crate::job::robot::source::{BeforeFlat, RobotSource, robot_source};
 use crate::job::robot::system_frames::with_system_frames;
 use crate::job::robot_arguments::CorrectWord;
@@ -264,7 +265,7 @@ pub(crate) fn setting(
     // A search for faults of the job leaves out those of its program.
     let mut expand = expand.filter(|_| !job.is_some_and(|j| j.is_searched));
     if robot.is_none() {
-        reading.moving_calls = flags.robot.stated.moving_subprograms(job)?;
+        reading.moving_calls = moving_subprograms(job, &flags.robot.stated)?;
         if let Some(expand) = &mut expand {
             expand.options.reading.moving_calls = reading.moving_calls.clone();
         }

@@ -156,7 +156,7 @@ fn a_call_that_is_stated_to_move_is_refused_by_line() {
     assert!(flat.contains("line 7"), "{flat}");
     let said = run(here, &["deflect", "job.toml", "--call", "SPINDLE_ON"]);
     assert!(said.err.contains("NAME=moves"), "{said:?}");
-    // A program in G-code has no such calls.
+    // The subprograms of G-code have numbers.
     std::fs::write(here.join("a.nc"), "G21 G90 F100\nG1 X5\n").unwrap();
     let said = run(
         here,
@@ -170,7 +170,7 @@ fn a_call_that_is_stated_to_move_is_refused_by_line() {
         ],
     );
     assert!(
-        said.err.contains("--call is for programs of robots"),
+        said.err.contains("a subprogram of G-code has a number"),
         "{said:?}"
     );
     let job = JOB
@@ -182,9 +182,55 @@ fn a_call_that_is_stated_to_move_is_refused_by_line() {
     std::fs::write(here.join("job.toml"), job + "[calls]\nX = \"moves\"\n").unwrap();
     let said = run(here, &["deflect", "job.toml"]);
     assert!(
-        said.err.contains("[calls] is for programs of robots"),
+        said.err.contains("a subprogram of G-code has a number"),
         "{said:?}"
     );
+    let said = run(here, &["expand", "a.nc", "--set", "A=1"]);
+    assert!(said.err.contains("--set is for programs"), "{said:?}");
+    // For Fanuc's controllers the call of one that is not there stays, unless it moves the tool.
+    std::fs::write(
+        here.join("a.nc"),
+        "G21 G90 G0 X0 Y0 Z5\nM98 P9000\nG1 X5 F100\nM30\n",
+    )
+    .unwrap();
+    let expand = ["expand", "a.nc", "--dialect", "fanuc", "--no-comments"];
+    let said = run(here, &expand);
+    assert!(said.out.contains("\nM98 P9000\n"), "{said:?}");
+    let said = run(here, &[&expand[..], &["--call", "O9000=moves"]].concat());
+    assert!(
+        said.err.contains("O9000 moves the tool, as is stated"),
+        "{said:?}"
+    );
+    // A program in blocks that calls a file of its folder is run with it, not read past it.
+    std::fs::write(
+        here.join("main.mpf"),
+        "G90 G0 X0 Y0 Z5\nHOLE\nG1 X5 F100\nM30\n",
+    )
+    .unwrap();
+    std::fs::write(here.join("HOLE.SPF"), "G1 Z-5 F100\nG0 Z5\nRET\n").unwrap();
+    let deflect = [
+        "deflect",
+        "heavy_6r",
+        "--program",
+        "main.mpf",
+        "--force",
+        "0",
+        "0",
+        "9",
+    ];
+    let said = run(here, &deflect);
+    assert_eq!(said.code, 1);
+    let flat: String = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        flat.contains("calls HOLE.SPF, which lies in its folder"),
+        "{flat}"
+    );
+    std::fs::remove_file(here.join("HOLE.SPF")).unwrap();
+    let said = run(here, &["expand", "main.mpf"]);
+    assert!(said.err.contains("in none of the files"), "{said:?}");
+    let said = run(here, &["expand", "main.mpf", "--call", "hole=moves"]);
+    assert_eq!(said.code, 1);
+    assert!(said.err.contains("`hole` moves the tool"), "{said:?}");
 }
 
 /// A program in G-code without a unit is in millimetres, which stands among the assumptions.

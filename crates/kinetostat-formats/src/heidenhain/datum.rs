@@ -116,6 +116,9 @@ pub(crate) fn is_followed(cycle: u32) -> bool {
     matches!(cycle, 1 | 200 | 201 | 203)
 }
 
+/// Borings, taps and other holes whose way is the control's own: such a cycle stays, one call over each hole.
+pub(crate) const KEPT: [u32; 8] = [202, 204, 205, 206, 207, 209, 240, 241];
+
 /// The number of an axis.
 pub(crate) fn axis_of(word: &Word) -> Option<(usize, bool)> {
     match word.letters.letters() {

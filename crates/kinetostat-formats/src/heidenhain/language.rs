@@ -1,8 +1,8 @@
 //! Facts and acts of Heidenhain programs that files outside this folder ask for.
 
 use crate::error::WriteError;
+use crate::heidenhain::called::called;
 use crate::heidenhain::expand::flat::run_or_refused;
-use crate::heidenhain::expand::program::called;
 use crate::heidenhain::numbering::{is_numbered, numbered_again};
 use crate::heidenhain::reading::reader::parse_heidenhain;
 use crate::heidenhain::table::HEIDENHAIN_STATEMENTS;

@@ -1,6 +1,6 @@
 //! Heidenhain conversational programs (`.h`) of TNC 426 to TNC 640.
 //!
-//! From the blocks of a file ([`blocks`], [`words`]), in the order in which they run ([`flow`]), to motions ([`reading`], with what
+//! From the blocks of a file ([`blocks`], [`words`]), in the order in which they run ([`flow`], other programs by [`called`]), to motions ([`reading`], with what
 //! is in force in [`state`], [`tilt`] and [`tip_control`], ends and ways in [`ends`], circles in [`arcs`], cycles that move the coordinates in [`datum`], how fine places are in [`digits`], planes in [`plane`], first and last block in [`title`]). What
 //! each statement is taken for stands in [`table`]. Corrected blocks are written by [`writing`], and numbered again by [`numbering`].
 //! Programs that repeat, jump, count or drill by cycles are run once and written flat by [`expand`].
@@ -11,6 +11,7 @@
 pub(crate) mod arcs;
 pub(crate) mod aside;
 pub(crate) mod blocks;
+pub(crate) mod called;
 pub(crate) mod datum;
 pub(crate) mod digits;
 pub(crate) mod ends;

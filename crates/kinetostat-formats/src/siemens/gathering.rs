@@ -117,7 +117,7 @@ impl Reader<'_> {
             self.fault(
                 &item.span,
                 why,
-                "give it a value in the program, or write the number",
+                "give it a value in the program, or state it (--set NAME=VALUE)",
             );
         }
     }

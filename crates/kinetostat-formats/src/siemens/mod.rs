@@ -9,6 +9,7 @@
 pub(crate) mod arcs;
 pub(crate) mod axes_beside;
 pub(crate) mod block;
+pub(crate) mod called;
 mod circle;
 mod codes;
 pub(crate) mod declarations;

@@ -1,6 +1,5 @@
 //! Treatment of each word of the SINUMERIK 840D.
 
-use crate::siemens::flat::drilling::KEPT;
 use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{Alike, StatementRow, Treatment, alike, count, rows};
 
@@ -80,6 +79,11 @@ const INVERSE: Treatment = Refused {
     reason: "the feed is one over the time of each block (G93)",
     remedy: "let the CAM system write feeds in mm/min (G94)",
 };
+
+/// Cycles whose way is the control's own: with a tap in its chuck or in compensating one, and borings.
+pub(crate) const KEPT: [&str; 7] = [
+    "CYCLE84", "CYCLE840", "CYCLE85", "CYCLE86", "CYCLE87", "CYCLE88", "CYCLE89",
+];
 
 /// Treatment of each word of a SINUMERIK program. A word that is not listed is refused with its line; M, H and S words and variables are carried.
 pub const SIEMENS_STATEMENTS: &[StatementRow] = &rows::<{ count(GROUPS) }>(GROUPS);

@@ -168,7 +168,7 @@ impl Reader<'_> {
                 self.fault(
                     span,
                     why,
-                    "give it a value in the program, or write the number",
+                    "give it a value in the program, or state it (--set NAME=VALUE)",
                 );
                 None
             }

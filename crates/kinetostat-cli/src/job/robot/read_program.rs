@@ -55,10 +55,7 @@ impl RobotRead<'_> {
 
     /// Assumption that calls of unknown routines do not move the tool.
     pub(crate) fn assumed_of_calls(&self) -> Option<Assumption> {
-        let calls = self.program.calls_taken_to_stay().into_iter();
-        let calls: Vec<(String, usize)> =
-            calls.map(|(name, line)| (name.to_owned(), line)).collect();
-        Assumption::of_calls(&calls)
+        of_calls(self.program)
     }
 
     /// The program as a run takes it.
@@ -71,6 +68,13 @@ impl RobotRead<'_> {
             writing: &self.settings.writing,
         }
     }
+}
+
+/// Assumption that calls of what is in none of the files do not move the tool.
+pub(crate) fn of_calls(program: &RobotProgram) -> Option<Assumption> {
+    let calls = program.calls_taken_to_stay().into_iter();
+    let calls: Vec<(String, usize)> = calls.map(|(name, line)| (name.to_owned(), line)).collect();
+    Assumption::of_calls(&calls)
 }
 
 /// The program, read when it is first asked for; of a faulty one all faults.

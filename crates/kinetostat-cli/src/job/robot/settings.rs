@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 use serde_spanned::Spanned;
 
 use crate::job::job_file::JobFile;
-use crate::job::robot_arguments::{AxisWord, CorrectWord, RobotArgs};
+use crate::job::robot_arguments::{AxisWord, CorrectWord, RobotArgs, StatedArgs};
 use crate::job::robot_table::{
     CutterCompensationWord, ExternalAxesWord, LengthUnitWord, RobotTable, UnknownTargetsWord,
 };
@@ -148,20 +148,41 @@ pub(crate) fn settings(
     })
 }
 
-/// Names of calls that move the tool.
+/// Names of calls that are stated to move the tool.
+fn stated_to_move(job: Option<&JobFile>, stated: &StatedArgs) -> BTreeSet<String> {
+    let in_job = job.iter().flat_map(|j| j.job.calls.keys());
+    let in_job = in_job.map(|name| name.get_ref().clone());
+    in_job.chain(stated.moving_calls.iter().cloned()).collect()
+}
+
 fn moving_calls(
     job: Option<&JobFile>,
     flags: &RobotArgs,
     language: Language,
 ) -> Answer<BTreeSet<String>> {
-    let mut found: BTreeSet<String> = flags.stated.moving_calls.iter().cloned().collect();
-    found.extend((job.iter()).flat_map(|j| j.job.calls.keys().map(|name| name.get_ref().clone())));
+    let found = stated_to_move(job, &flags.stated);
     match found.first() {
         Some(name) if !language.has_calls() => Err(Failure::input(format!(
             "'{name}' is stated to move the tool ([calls] in the job, --call), which is for programs that call others: leave it out"
         ))),
         _ => Ok(found),
     }
+}
+
+/// Numbers of the subprograms of G-code that are stated to move the tool.
+pub(crate) fn moving_subprograms(
+    job: Option<&JobFile>,
+    stated: &StatedArgs,
+) -> Answer<BTreeSet<u32>> {
+    let number = |name: &String| {
+        let digits = name.trim_start_matches(['O', 'o']);
+        digits.parse::<u32>().map_err(|_| {
+            Failure::input(format!(
+                "'{name}' is stated to move the tool ([calls] in the job, --call), and a subprogram of G-code has a number: write it as O9810"
+            ))
+        })
+    };
+    stated_to_move(job, stated).iter().map(number).collect()
 }
 
 /// Values that only the controller knows, for programs that are run with them.

@@ -1,5 +1,6 @@
 //! Cycles: what they define, and the holes that their calls drill.
 
+use crate::heidenhain::datum::KEPT;
 use crate::heidenhain::digits::length;
 use crate::heidenhain::expand::hole::{Hole, Stroke};
 use crate::heidenhain::expand::run::{Fault, Run};
@@ -78,7 +79,7 @@ impl Run<'_> {
         let has_values = words
             .windows(2)
             .any(|pair| pair[0].is("Q") && begins_value(&pair[1], file.bytes()));
-        if matches!(cycle, 200 | 201 | 203) {
+        if matches!(cycle, 200 | 201 | 203) || KEPT.contains(&cycle) {
             // Parameters of an earlier cycle are not valid for this one.
             for name in OWN {
                 self.parameters.remove(name);
@@ -130,6 +131,7 @@ impl Run<'_> {
             _ if self.cycle_refused => Ok(false),
             None => Err(self.fault(at, "no cycle is defined that could be called", "define it before")),
             Some(1 | 200 | 201 | 203) => Ok(false),
+            Some(_) if self.heights_of_kept().is_some() => Ok(false),
             Some(number) if self.options.unknown_targets == UnknownTargets::Refused => Err(self
                 .fault(
                     at,
@@ -140,9 +142,34 @@ impl Run<'_> {
         }
     }
 
+    /// Where the tool goes to before a cycle that stays, and where it is taken behind it, along its axis; `None` for other cycles.
+    fn heights_of_kept(&self) -> Option<[f64; 2]> {
+        self.cycle.filter(|cycle| KEPT.contains(cycle))?;
+        let surface = self.parameters.value("Q203")?;
+        let begin = surface + self.parameters.value("Q200")?;
+        let second = self.parameters.value("Q204").unwrap_or(0.0);
+        Some([begin, begin.max(surface + second)])
+    }
+
+    /// A cycle whose way is the control's own: its call, between the blocks that lead over the hole and away.
+    fn keep_cycle(&mut self, at: (usize, usize), [begin, end]: [f64; 2]) {
+        let to = |height: f64| {
+            let height = length(height, self.unit_mm);
+            format!("L {}{height} R0 FMAX", self.axis)
+        };
+        for text in [to(begin), "CYCL CALL".to_owned(), to(end)] {
+            self.write(text.as_bytes(), at);
+        }
+        self.feed_lost |= self.feed.is_some();
+    }
+
     /// The blocks of a hole.
     pub(crate) fn drill(&mut self, at: (usize, usize)) -> Result<(), Fault> {
         if self.cycle_refused {
+            return Ok(());
+        }
+        if let Some(heights) = self.heights_of_kept() {
+            self.keep_cycle(at, heights);
             return Ok(());
         }
         let value = |name: &str| self.parameters.value(name).unwrap_or(0.0);

@@ -1,8 +1,9 @@
 //! Control flow: labels, repeats, other programs, jumps.
 
 use crate::error::ProgramError;
+use crate::heidenhain::called::called_name;
 use crate::heidenhain::expand::expression::value_of;
-use crate::heidenhain::expand::program::{Program, called_name};
+use crate::heidenhain::expand::program::Program;
 use crate::heidenhain::expand::run::{Fault, Frame, Next, Run};
 use crate::heidenhain::expand::values::STATE_VALUE;
 use crate::heidenhain::flow::label_name;

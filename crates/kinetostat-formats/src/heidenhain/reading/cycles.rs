@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::heidenhain::blocks::{Block, STRAY, STRAY_REMEDY};
-use crate::heidenhain::datum::{Bend, Change, PARAMETER, change};
+use crate::heidenhain::datum::{Bend, Change, KEPT, PARAMETER, change};
 use crate::heidenhain::plane::XY;
 use crate::heidenhain::reading::walker::{BUILDERS, Reader, TILTED, TILTED_REMEDY};
 use crate::heidenhain::words::{Value, Word};
@@ -39,7 +39,13 @@ impl Reader<'_> {
         };
         if kind.is("CALL") {
             let place = self.state.counts_from();
-            return self.called(block, words, span, place);
+            let kept = self.state.cycle.filter(|cycle| KEPT.contains(cycle));
+            return match kept {
+                Some(cycle) if words.len() == 2 && self.is_over_a_hole(place) => {
+                    self.kept_cycle(cycle, span);
+                }
+                _ => self.called(block, words, span, place),
+            };
         }
         if kind.is("END") {
             return;
@@ -97,6 +103,22 @@ impl Reader<'_> {
                 "take it into a program of its own",
             ),
         }
+    }
+
+    /// True if the tool stands at a known place of the working plane, which is not tilted.
+    fn is_over_a_hole(&self, place: [Option<f64>; 3]) -> bool {
+        let along = self.state.plane.0;
+        let tilted = matches!(self.state.datum.bend, Bend::Tilt(_));
+        !tilted && (0..3).all(|axis| axis == along || place[axis].is_some())
+    }
+
+    /// A cycle whose way is the control's own: it begins over the hole and ends above it.
+    fn kept_cycle(&mut self, cycle: u32, span: &Range<usize>) {
+        self.state.place[self.state.plane.0] = None;
+        self.state.last = None;
+        let line = self.file.line_of(span.start);
+        self.found.unjudged_feed_on.get_or_insert(line);
+        self.finding(span, format!("cycle {cycle} stays as it is written: its way is the control's own, and not corrected; the tool stands over the corrected place"));
     }
 
     /// A datum shift, mirror image, rotation or scaling.

@@ -66,6 +66,8 @@ pub(crate) struct PoleThere {
 pub(crate) struct Found {
     pub faults: Vec<ProgramError>,
     pub findings: Vec<Finding>,
+    /// First line of a feed whose way is the control's own.
+    pub unjudged_feed_on: Option<usize>,
     /// Calls of programs that are in none of the files.
     pub outside_calls: Vec<OutsideCall>,
     pub motions: Vec<Motion>,

@@ -58,6 +58,7 @@ pub(crate) fn parse_heidenhain(files: Vec<SourceFile>, options: &ReadOptions) ->
     let (motions, findings) = (found.motions, found.findings);
     let parsed = Parsed::of(Language::Heidenhain, files, motions, findings, found.faults);
     let mut parsed = parsed.with_calls(found.outside_calls, &options.moving_calls);
+    parsed.program.unjudged_feed_on = found.unjudged_feed_on;
     parsed.program.slash_blocks = options.slash_blocks;
     parsed.program.rotary = StatedAxes {
         letters: options.rotary_axes.clone(),

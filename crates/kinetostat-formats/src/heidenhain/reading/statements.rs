@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::heidenhain::blocks::Block;
-use crate::heidenhain::expand::program::{called_name, is_called};
+use crate::heidenhain::called::{called_name, is_called};
 use crate::heidenhain::flow::{NOT_ALONE, label_name};
 use crate::heidenhain::reading::walker::{EXPAND, Reader};
 use crate::heidenhain::table::row;

@@ -7,9 +7,9 @@
 use crate::flat_run::Runs;
 use crate::refused_run::Behind;
 use crate::siemens::block::{Argument, Item, What};
+use crate::siemens::called::program_name;
 use crate::siemens::expression::Expression;
 use crate::siemens::flat::runner::{Fault, Level, Runner};
-use crate::siemens::flat::unresolved::program_name;
 use crate::siemens::values::{Value, Variable};
 
 /// A subprogram that a block calls.

@@ -8,6 +8,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::siemens::table::KEPT;
 use crate::text::finding::Finding;
 use crate::text::line_words::in_words;
 
@@ -28,11 +29,6 @@ pub(super) struct Drilling {
     /// The call of a cycle that stays, with its numbers.
     pub kept: Option<String>,
 }
-
-/// Cycles whose way is the control's own: with a tap in its chuck or in compensating one, and borings.
-pub(crate) const KEPT: [&str; 7] = [
-    "CYCLE84", "CYCLE840", "CYCLE85", "CYCLE86", "CYCLE87", "CYCLE88", "CYCLE89",
-];
 
 /// True if a word in capitals is a cycle that drills one hole where it is called.
 pub(super) fn is_drilling(word: &[u8]) -> bool {

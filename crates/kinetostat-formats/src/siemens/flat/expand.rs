@@ -10,11 +10,11 @@ use crate::model::stated_value::told_of_values;
 use crate::options::ReadOptions;
 use crate::refused_run::{RefusedRun, with_corners};
 use crate::siemens::block::{Block, What};
+use crate::siemens::called::program_name;
 use crate::siemens::files::whole_file;
 use crate::siemens::flat::corners::written_out;
 use crate::siemens::flat::runner::Runner;
 use crate::siemens::flat::structure::Unit;
-use crate::siemens::flat::unresolved::program_name;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 

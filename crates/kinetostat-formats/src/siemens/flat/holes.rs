@@ -1,9 +1,10 @@
 //! Expansion of a drilling cycle call to blocks.
 
 use crate::siemens::block::{Argument, Item, What};
-use crate::siemens::flat::drilling::{Deep, Drilling, KEPT};
+use crate::siemens::flat::drilling::{Deep, Drilling};
 use crate::siemens::flat::runner::{Fault, Runner};
 use crate::siemens::place::number_text;
+use crate::siemens::table::KEPT;
 
 /// The cycle of a call.
 pub(super) fn drilling_of(runner: &Runner<'_>, item: &Item) -> Result<Drilling, Fault> {

@@ -5,7 +5,7 @@
 
 mod calls;
 mod corners;
-pub(crate) mod drilling;
+mod drilling;
 mod expand;
 mod holes;
 mod modes;
@@ -15,7 +15,6 @@ mod run;
 mod runner;
 mod statements;
 mod structure;
-pub(crate) mod unresolved;
 
 pub(crate) use expand::run_or_refused;
 pub use expand::{expand_siemens, expand_within};

@@ -174,7 +174,7 @@ impl Runner<'_> {
                         self.fault(
                             &item.span,
                             why,
-                            "give it a value in the program, or write the number",
+                            "give it a value in the program, or state it (--set NAME=VALUE)",
                         )
                     })?;
                     edits.replace(span.clone(), text_of(&found));

@@ -138,7 +138,7 @@ impl<'r> Runner<'r> {
             self.fault(
                 &self.span(),
                 why,
-                "give it a value in the program, or write the number",
+                "give it a value in the program, or state it (--set NAME=VALUE)",
             )
         })
     }
@@ -197,7 +197,7 @@ impl<'r> Runner<'r> {
             self.fault(
                 &self.span(),
                 why,
-                "give it a value in the program, or write the number",
+                "give it a value in the program, or state it (--set NAME=VALUE)",
             )
         })?;
         self.set(name, indices, value)

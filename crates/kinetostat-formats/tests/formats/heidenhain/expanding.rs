@@ -432,3 +432,58 @@ fn a_feed_by_turns_is_known_while_the_spindle_turns() {
     );
     assert!(found[4].is_none() && found[5].is_none(), "{found:?}");
 }
+
+/// Taps and borings are the control's own: their calls stay, over each hole, whose place is corrected.
+#[test]
+fn cycles_of_the_control_stay_over_their_holes() {
+    let define = "CYCL DEF 207 RIGID TAPPING ~\n Q200=+2 ~\n Q201=-10 ~\n Q239=+1 ~\n Q203=+5 ~\n Q204=+50\n";
+    let body = text(&format!(
+        "L X+0 Y+0 Z+60 R0 FMAX\nL F200\n{define}L X+10 FMAX M99\nL Y+7 FMAX\nCYCL CALL\nL Y+9\n"
+    ));
+    let flat =
+        expand_heidenhain(vec![SourceFile::new("a.h", body)], &ReadOptions::default()).unwrap();
+    let output = String::from_utf8_lossy(flat.file.bytes()).into_owned();
+    let hole = "L Z+7 R0 FMAX\nCYCL CALL\nL Z+55 R0 FMAX\n";
+    let expected = format!("L X+10 FMAX\n{hole}L Y+7 FMAX\n{hole}L Y+9 F200\n");
+    assert!(output.contains(&expected), "{output}");
+    assert!(output.contains("CYCL DEF 207 RIGID TAPPING"), "{output}");
+    let program = read_heidenhain(vec![flat.file], &ReadOptions::default()).unwrap();
+    let ends: Vec<[f64; 3]> = (program.motions.iter())
+        .map(|motion| motion.target.pose().unwrap().position_mm.into())
+        .collect();
+    assert_eq!(
+        ends[1..],
+        [
+            [10.0, 0.0, 60.0],
+            [10.0, 0.0, 7.0],
+            [10.0, 0.0, 55.0],
+            [10.0, 7.0, 55.0],
+            [10.0, 7.0, 7.0],
+            [10.0, 7.0, 55.0],
+            [10.0, 9.0, 55.0]
+        ]
+    );
+    assert_eq!(
+        (program.motions[3].follows, program.motions[4].follows),
+        (None, Some(3))
+    );
+    let path = path_of(&program, &PathOptions::default()).unwrap().path;
+    assert!(path.unjudged_feed_on.is_some());
+    // Over no place, and beside other words, it is refused as before.
+    let read = |body: &str| {
+        let file = SourceFile::new("a.h", text(body));
+        read_heidenhain(vec![file], &ReadOptions::default())
+    };
+    for body in [
+        format!("L Z+9 FMAX\n{define}CYCL CALL\n"),
+        format!("L X+0 Y+0 Z+9 FMAX\n{define}L X+5 FMAX M99\n"),
+    ] {
+        let refused = read(&body).unwrap_err();
+        assert!(
+            refused
+                .iter()
+                .any(|fault| fault.reason.contains("cycle 207 is called")),
+            "{refused:?}"
+        );
+    }
+}
