@@ -192,12 +192,18 @@ const GROUPS: &[Alike] = &[
         "LFWP", "LFPOS", "LIFTFAST", "TOFRAMEX", "TOFRAMEY", "TOFRAMEZ", "TOROTX", "TOROTY",
         "TOROTZ", "TCOABS", "TCOFR", "TCOFRX", "TCOFRY", "TCOFRZ", "REPOSA", "REPOSL", "REPOSQ",
         "REPOSH", "REPOSHA", "REPOSQA", "RMB", "RMI", "RME", "RMN", "PON", "SON", "PONS", "SONS",
-        "PDELAYON", "SYNFCT", "AXTOCHAN", "OSCILL", "FOCON", "FOCOF", "FXS",
+        "PDELAYON", "SYNFCT", "AXTOCHAN", "OSCILL", "FOCON", "FOCOF", "FXS", "PTP", "PTPG0",
+        "ORIROTA", "ORIROTR", "ORIROTT", "ORIROTC", "ORIPATHS", "ORICONTO", "ORICONIO", "ORIVIRT1",
+        "ORIVIRT2", "ORIRPY2", "ORIEULER2", "KONTC", "KONTT", "CUTCONON", "TOWMCS", "TOWWCS",
+        "TOWBCS", "TOWTCS", "TOWKCS", "MASLDEF", "MASLDEL", "MASLON", "MASLOF", "MASLOFS",
+        "ISOCALL", "FPRAON", "DIAM90A", "DIAMCHANA", "GFRAME",
     ]),
     alike(Carried, WORK, &[
         "MMC", "NEWCONF", "INIT", "START", "WAITM", "WAITMC", "WAITE", "SETM", "CLEARM", "EXTOPEN",
         "EXTCLOSE", "ENABLE", "DISABLE", "CLRINT", "LOCK", "UNLOCK", "RESETMON", "SPOF",
-        "IPOBRKA", "FINEA", "COARSEA", "IPOENDA", "DELAYFSTON", "DELAYFSTOF", "STOPREOF",
+        "IPOBRKA", "FINEA", "COARSEA", "IPOENDA", "DELAYFSTON", "DELAYFSTOF", "STOPREOF", "CP",
+        "CUTCONOF", "TOWSTD", "FPRAOF", "FENDNORM", "CPRECON", "CPRECOF", "BNAT", "BTAN", "BAUTO",
+        "ENAT", "ETAN", "EAUTO",
     ]),
     alike(OTHER, WORK, &["G291"]),
 ];
@@ -216,10 +222,14 @@ pub(crate) const MODES: &[&[&str]] = &[
     &["CDOF", "CDOF2", "CDON"], &["RTLION", "RTLIOF"], &["FGROUP"], &["FGREF"], &["FNORM"],
 ];
 
-/// The row of a word, in capitals. Frames of G505 to G599 have one row, and so have cycles that are not listed.
+/// The row of a word, in capitals. Frames of G505 to G599 have one row, and so have those of a grinding wheel (GFRAME1) and cycles that are not listed.
 pub(crate) fn row(word: &str) -> Option<&'static StatementRow> {
     let of_word = |word: &str| SIEMENS_STATEMENTS.iter().find(|row| row.name == word);
     let is_cycle = (word.strip_prefix("CYCLE"))
         .is_some_and(|rest| rest.bytes().all(|byte| byte.is_ascii_digit()) && !rest.is_empty());
-    of_word(word).or_else(|| of_word("CYCLE90").filter(|_| is_cycle))
+    let family = match word.starts_with("GFRAME") {
+        true => Some("GFRAME"),
+        false => is_cycle.then_some("CYCLE90"),
+    };
+    of_word(word).or_else(|| of_word(family?))
 }

@@ -132,6 +132,8 @@ fn what_moves_the_tool_otherwise_is_refused_by_line() {
             "it is not known: a subprogram, a variable without DEF, or a word of this machine",
         ),
         ("CYCLE9971(1)", "its motions are the controller's cycle"),
+        ("PTP", "it may move the tool or its frame"),
+        ("GFRAME3", "it may move the tool or its frame"),
         ("TANGON(C)", "it may move the tool or its frame"),
         (
             "X=R7",
