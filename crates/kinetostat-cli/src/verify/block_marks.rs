@@ -53,8 +53,23 @@ fn with(words: &[BlockWord], names: &[&str]) -> String {
     names.iter().map(of).collect()
 }
 
+/// All words of a block but its number.
+fn joined(words: &[BlockWord]) -> String {
+    let counts = |word: &&BlockWord| !matches!(word.name.as_str(), "N" | "/");
+    let texts = words.iter().filter(counts).map(|word| word.text.as_str());
+    texts.collect::<Vec<_>>().join(" ")
+}
+
 /// Marks of G-code with the words that belong to them: `G64 P0.5 Q0.1`, `G43 H2`, `G4 P1`.
 fn of_gcode(words: &[BlockWord]) -> Vec<(Kind, String)> {
+    // A call of a subprogram, and a cycle that only the control makes, are what all of their words say.
+    let is_whole = |word: &BlockWord| {
+        let stays = ["G65", "G74", "G76", "G84", "G87", "G88", "M98"];
+        stays.contains(&word.text.as_str())
+    };
+    if words.iter().any(is_whole) {
+        return vec![(Kind::Other, joined(words))];
+    }
     let mark = |word: &BlockWord| {
         let number = word.text.get(1..).unwrap_or_default();
         let (kind, belong): (Kind, &[&str]) = match (word.name.as_str(), number) {
@@ -112,6 +127,10 @@ fn of_heidenhain(words: &[BlockWord]) -> Vec<(Kind, String)> {
             found.push((Kind::PathMode, format!("cycle 32 with {}", with.join(" "))));
         }
         [_, "DEF9.1", with @ ..] => found.push((Kind::Other, with.join(" "))),
+        ["CALL", ..] | ["CYCL", "CALL", ..] => found.push((Kind::Other, joined(words))),
+        ["CYCL", define, ..] if define.starts_with("DEF2") && !define.contains('.') => {
+            found.push((Kind::Other, joined(words)));
+        }
         ["FUNCTION", "DWELL", ..] => found.push((Kind::Other, texts[1..].join(" "))),
         ["FUNCTION", ..] => found.push((Kind::Other, texts.join(" "))),
         ["TOOL", call, ..] if call.starts_with("CALL") => {

@@ -287,3 +287,27 @@ fn what_a_file_beside_holds_is_read() {
     );
     assert!(said.code == 0 || said.code == 4, "{said:?}");
 }
+
+/// The values of a call that nothing here follows are those of the original, or it is said.
+#[test]
+fn other_values_of_a_call_are_named() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    let text = "G21 G90 G54\nG0 X0 Y0 Z5\nG65 P9810 Z-5. F50\nG1 Z-1 F100\nG1 X10\nM30\n";
+    std::fs::write(here.join("a.nc"), text).unwrap();
+    let job = "schema = 1\nmodel = \"orthoglide\"\nprogram = \"a.nc\"\n[expand]\ndialect = \"fanuc\"\n[tool]\nlength_mm = 0\n[load]\nforce_n = [0, 0, 50]\n";
+    std::fs::write(here.join("job.toml"), job).unwrap();
+    let said = run(here, &["compensate", "job.toml"]);
+    assert_eq!(said.code, 0, "{said:?}");
+    let written = std::fs::read_to_string(here.join("a-compensated.nc")).unwrap();
+    assert!(written.contains("G65 P9810 Z-5. F50"), "{written}");
+    let verify = || run(here, &["verify", "--job", "job.toml", "a-compensated.nc"]);
+    assert!(!verify().out.contains("is not in the original"));
+    std::fs::write(
+        here.join("a-compensated.nc"),
+        written.replace("Z-5.", "Z-6."),
+    )
+    .unwrap();
+    let said = verify();
+    assert!(said.out.contains("G65 P9810 Z-6 F50 at line"), "{said:?}");
+}
