@@ -45,8 +45,8 @@ def expand(
     Parameters
     ----------
     program : path
-        Program in G-code, of SINUMERIK (.mpf) or Heidenhain (.h), in APT (.apt, .cls), KRL (.src)
-        or RAPID (.mod)
+        Program in G-code, of SINUMERIK (.mpf) or Heidenhain (.h), in APT (.apt, .cls), KRL (.src),
+        RAPID (.mod) or FANUC TP (.ls)
     out : path
         File for the flat program; without it, it is printed
     subprograms : path | Sequence[path]
