@@ -286,8 +286,8 @@ pub(crate) fn setting(
             notes_of_run = notes_of(&text);
             robot_flat = Some((text.file.bytes().to_vec(), flat));
             let before = std::mem::replace(&mut source.files, vec![text.file]);
-            if source.language.is_in_blocks() {
-                // Its blocks hold numbers now.
+            if text.changed && source.language.is_in_blocks() {
+                // The flat blocks hold numbers.
                 source.settings.reading.values.clear();
             }
             let paths = std::mem::take(&mut source.paths);
