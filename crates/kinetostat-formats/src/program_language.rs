@@ -184,12 +184,7 @@ pub trait ProgramLanguage: Sync {
         true
     }
 
-    /// True for programs that call others: what is in none of the files may be stated to move the tool.
-    fn has_calls(&self) -> bool {
-        self.takes_values()
-    }
-
-    /// True for programs that are run with values that the caller states.
+    /// True for programs that are run: with values that the caller states, and calls of what he says moves the tool.
     fn takes_values(&self) -> bool {
         self.is_of_robot()
     }

@@ -138,8 +138,8 @@ fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<(
     print_bytes((said + &written(&paths)).as_bytes())
 }
 
-/// What is assumed of calls that none of the files holds; where the user says that one moves the tool, the program is read, and refused as it
-/// would be by other commands.
+/// Assumption on calls that none of the files holds. With calls that are stated to move the tool, a program that is refused is refused here,
+/// too.
 fn assumed_of_calls(source: &RobotSource, text: &FlatText) -> Answer<Option<String>> {
     let reading = &source.settings.reading;
     match read(source.language, vec![text.file.clone()], reading) {

@@ -288,6 +288,26 @@ fn what_a_file_beside_holds_is_read() {
     assert!(said.code == 0 || said.code == 4, "{said:?}");
 }
 
+/// A SINUMERIK program without jumps stays as it is under --expand, with its names: their stated values hold there, too.
+#[test]
+fn stated_values_hold_where_nothing_was_written_flat() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    let text = "G17 G90 G54\nT1 D1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F600\nX=R5\nM30\n";
+    std::fs::write(here.join("a.mpf"), text).unwrap();
+    for with in [&["--set", "R5=10"][..], &["--set", "R5=10", "--expand"]] {
+        let deflect = "deflect heavy_6r --program a.mpf --part-origin-mm 1200 0 900 --force 0 0 9 --weight none --json";
+        let words: Vec<&str> = deflect
+            .split_whitespace()
+            .chain(with.iter().copied())
+            .collect();
+        let said = run(here, &words);
+        assert!(!said.err.contains("has no value"), "{said:?}");
+        let told = format!("{}{}", said.out, said.err);
+        assert!(told.contains("`R5` is 10, as is stated"), "{said:?}");
+    }
+}
+
 /// The values of a call that nothing here follows are those of the original, or it is said.
 #[test]
 fn other_values_of_a_call_are_named() {

@@ -57,6 +57,13 @@ pub(crate) fn unknown_frames(motions: &[Motion]) -> Vec<Finding> {
     findings
 }
 
+/// Message on a cycle that stays a call over its hole.
+pub(crate) fn stays_as_written(cycle: &str) -> String {
+    format!(
+        "{cycle} stays as it is written: its way is the control's own, and not corrected; the tool stands over the corrected place"
+    )
+}
+
 /// Findings on calls that no file defines: each name once, with its lines and the assumption.
 pub(crate) fn outside_calls(language: Language, calls: &[OutsideCall]) -> Vec<Finding> {
     let all = by_name(calls).into_iter().map(|of| Finding {

@@ -4,28 +4,34 @@ use crate::siemens::block::{Block, Item, What};
 use crate::siemens::table::row;
 use crate::text::source::SourceFile;
 
+/// The word that names what a block calls, and the words behind it: of `PCALL NAME P3` those of NAME; `None` where it is not stated.
+pub(crate) fn named_by<'b>(file: &SourceFile, items: &'b [Item]) -> Option<(&'b Item, &'b [Item])> {
+    let (first, rest) = items.split_first()?;
+    let is_word = file.part(&first.name).eq_ignore_ascii_case(b"PCALL");
+    match (is_word, &first.what) {
+        (false, _) => Some((first, rest)),
+        (true, What::Name) => rest.split_first(),
+        (true, _) => None,
+    }
+}
+
 /// The word by which a block calls a subprogram: `NAME`, `NAME(5)`, `L6` or `PCALL NAME`, alone or with the number of its runs (`P3`).
 pub(crate) fn called_by<'b>(file: &SourceFile, items: &'b [Item]) -> Option<&'b Item> {
-    let is = |item: &Item, name: &str| file.part(&item.name).eq_ignore_ascii_case(name.as_bytes());
-    let (first, mut rest) = items.split_first()?;
-    let called = match is(first, "PCALL") && first.what == What::Name {
-        true => {
-            let (named, behind) = rest.split_first()?;
-            rest = behind;
-            named
-        }
-        false => first,
-    };
-    let name = String::from_utf8_lossy(file.part(&called.name)).to_ascii_uppercase();
-    let is_call = matches!(called.what, What::Name | What::Call(_))
-        && !name.starts_with('$')
-        && row(&name).is_none();
+    let (called, rest) = named_by(file, items)?;
+    if !matches!(called.what, What::Name | What::Call(_)) {
+        return None;
+    }
     let is_alone = match rest {
         [] => true,
-        [runs] => is(runs, "P") && matches!(runs.what, What::Value { .. }),
+        [runs] => {
+            file.part(&runs.name).eq_ignore_ascii_case(b"P")
+                && matches!(runs.what, What::Value { .. })
+        }
         _ => false,
     };
-    (is_call && is_alone).then_some(called)
+    let name = String::from_utf8_lossy(file.part(&called.name)).to_ascii_uppercase();
+    let is_call = is_alone && !name.starts_with('$') && row(&name).is_none();
+    is_call.then_some(called)
 }
 
 /// Names of the subprograms that a file may call, in capitals, as often as they stand there.
@@ -45,6 +51,11 @@ pub(crate) fn called(file: &SourceFile) -> Vec<String> {
         names.extend(called_by(file, items).map(name));
     }
     names
+}
+
+/// A called name in the form of [`program_name`].
+pub(crate) fn key_of_call(name: &[u8]) -> Vec<u8> {
+    program_name(&format!("{}.SPF", String::from_utf8_lossy(name)))
 }
 
 /// The name by which a program is called, in capitals: that of its file without ending and marks of the control.

@@ -6,11 +6,12 @@ use std::ops::Range;
 use nalgebra::Isometry3;
 
 use crate::axis_count::{CountShown, shown_by_both};
+use crate::model::findings::stays_as_written;
 use crate::model::outside_call::OutsideCall;
 use crate::model::slash_blocks::{SLASHED, SlashBlocks};
 use crate::options::ReadOptions;
 use crate::siemens::block::{Block, Item, What};
-use crate::siemens::called::{called_by, program_name};
+use crate::siemens::called::{called_by, key_of_call, program_name};
 use crate::siemens::declarations::define;
 use crate::siemens::files::whole_file;
 use crate::siemens::plain_turns::finding_of;
@@ -151,6 +152,7 @@ impl Reader<'_> {
             return self.statement(&item.span, &item.name, alone, tokens);
         }
         if let [cycle] = block.items.as_slice()
+            && matches!(cycle.what, What::Name | What::Call(_))
             && KEPT.contains(&self.name(&cycle.name).as_str())
         {
             return self.kept_cycle(cycle);
@@ -195,14 +197,14 @@ impl Reader<'_> {
         self.state.place[normal] = None;
         let line = self.file.line_of(cycle.span.start);
         self.out.unjudged_feed_on.get_or_insert(line);
-        self.finding(&cycle.span, format!("{name} stays as it is written: its way is the control's own, and not corrected; the tool stands over the corrected place"));
+        self.finding(&cycle.span, stays_as_written(&name));
     }
 
     /// A call of a subprogram, which is followed only by a run.
     fn outside_call(&mut self, called: &Item) {
         let name = self.name(&called.name);
-        let is_there =
-            |file: &SourceFile| program_name(file.name()) == program_name(&format!("{name}.SPF"));
+        let key = key_of_call(name.as_bytes());
+        let is_there = |file: &SourceFile| program_name(file.name()) == key;
         if self.files.iter().any(is_there) {
             return self.by_table("CALL", called);
         }

@@ -137,7 +137,7 @@ fn stated_parameter(name: &[u8], indices: &[f64]) -> Option<u32> {
 const LONGEST_TEXT: usize = 1000;
 
 impl Variables {
-    /// Those of which the caller states the value.
+    /// Variables with the values that the caller states.
     pub(crate) fn of(options: &ReadOptions) -> Self {
         let mut variables = Self::default();
         for (name, value) in &options.values {

@@ -162,7 +162,7 @@ fn moving_calls(
 ) -> Answer<BTreeSet<String>> {
     let found = stated_to_move(job, &flags.stated);
     match found.first() {
-        Some(name) if !language.has_calls() => Err(Failure::input(format!(
+        Some(name) if !language.takes_values() => Err(Failure::input(format!(
             "'{name}' is stated to move the tool ([calls] in the job, --call), which is for programs that call others: leave it out"
         ))),
         _ => Ok(found),

@@ -90,10 +90,10 @@ pub(crate) fn robot_source(
                     known_endings()
                 ),
             )),
-            _ => match job.and_then(|j| Some((j, only_of_robots(j)?))) {
-                Some((j, (table, key))) if !flags.converted => Err(j.error(
+            _ => match job.and_then(|j| Some((j, j.job.values.keys().next()?))) {
+                Some((j, key)) if !flags.converted => Err(j.error(
                     key,
-                    &format!("[{table}] is for programs of robots, and '{name}' is read as G-code"),
+                    &format!("[values] is for programs of robots, and '{name}' is read as G-code"),
                     "leave it out",
                 )),
                 _ => Ok(None),
@@ -212,11 +212,6 @@ fn files_beside(language: Language, path: &Path, bytes: &[u8]) -> Vec<PathBuf> {
         }
     }
     found
-}
-
-/// The first key of a table that G-code has no use for, with the name of the table.
-fn only_of_robots(job: &JobFile) -> Option<(&'static str, &Spanned<String>)> {
-    job.job.values.keys().next().map(|key| ("values", key))
 }
 
 /// A file in Parquet that was written.

@@ -33,6 +33,14 @@ fn named(bytes: &[u8], words: &[Word]) -> Option<Vec<Word>> {
     Some(parted)
 }
 
+/// Coordinates of the tool's axis between which a cycle that stays is called.
+struct Heights {
+    /// Start above the hole.
+    begin: f64,
+    /// Retraction behind the cycle.
+    end: f64,
+}
+
 impl Run<'_> {
     pub(crate) fn cycle(&mut self, at: (usize, usize), words: &[Word]) -> Result<(), Fault> {
         let file = self.programs[at.0].file;
@@ -142,22 +150,25 @@ impl Run<'_> {
         }
     }
 
-    /// Where the tool goes to before a cycle that stays, and where it is taken behind it, along its axis; `None` for other cycles.
-    fn heights_of_kept(&self) -> Option<[f64; 2]> {
+    /// Heights of a cycle that stays; `None` for other cycles.
+    fn heights_of_kept(&self) -> Option<Heights> {
         self.cycle.filter(|cycle| KEPT.contains(cycle))?;
         let surface = self.parameters.value("Q203")?;
         let begin = surface + self.parameters.value("Q200")?;
         let second = self.parameters.value("Q204").unwrap_or(0.0);
-        Some([begin, begin.max(surface + second)])
+        Some(Heights {
+            begin,
+            end: begin.max(surface + second),
+        })
     }
 
     /// A cycle whose way is the control's own: its call, between the blocks that lead over the hole and away.
-    fn keep_cycle(&mut self, at: (usize, usize), [begin, end]: [f64; 2]) {
+    fn keep_cycle(&mut self, at: (usize, usize), heights: &Heights) {
         let to = |height: f64| {
             let height = length(height, self.unit_mm);
             format!("L {}{height} R0 FMAX", self.axis)
         };
-        for text in [to(begin), "CYCL CALL".to_owned(), to(end)] {
+        for text in [to(heights.begin), "CYCL CALL".to_owned(), to(heights.end)] {
             self.write(text.as_bytes(), at);
         }
         self.feed_lost |= self.feed.is_some();
@@ -169,7 +180,7 @@ impl Run<'_> {
             return Ok(());
         }
         if let Some(heights) = self.heights_of_kept() {
-            self.keep_cycle(at, heights);
+            self.keep_cycle(at, &heights);
             return Ok(());
         }
         let value = |name: &str| self.parameters.value(name).unwrap_or(0.0);

@@ -7,6 +7,7 @@ use crate::heidenhain::datum::{Bend, Change, KEPT, PARAMETER, change};
 use crate::heidenhain::plane::XY;
 use crate::heidenhain::reading::walker::{BUILDERS, Reader, TILTED, TILTED_REMEDY};
 use crate::heidenhain::words::{Value, Word};
+use crate::model::findings::stays_as_written;
 
 /// Cycles that do nothing before they are called: drilling, pockets, studs, slots, contours, threads, gears.
 fn acts_where_called(cycle: u32) -> bool {
@@ -118,7 +119,7 @@ impl Reader<'_> {
         self.state.last = None;
         let line = self.file.line_of(span.start);
         self.found.unjudged_feed_on.get_or_insert(line);
-        self.finding(span, format!("cycle {cycle} stays as it is written: its way is the control's own, and not corrected; the tool stands over the corrected place"));
+        self.finding(span, stays_as_written(&format!("cycle {cycle}")));
     }
 
     /// A datum shift, mirror image, rotation or scaling.

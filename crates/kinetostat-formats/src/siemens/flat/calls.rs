@@ -7,7 +7,7 @@
 use crate::flat_run::Runs;
 use crate::refused_run::Behind;
 use crate::siemens::block::{Argument, Item, What};
-use crate::siemens::called::program_name;
+use crate::siemens::called::{key_of_call, named_by};
 use crate::siemens::expression::Expression;
 use crate::siemens::flat::runner::{Fault, Level, Runner};
 use crate::siemens::values::{Value, Variable};
@@ -26,35 +26,21 @@ impl<'r> Runner<'r> {
         let Some(first) = items.first() else {
             return Ok(None);
         };
-        let word = name(first);
-        let mut arguments: &[Argument] = match &first.what {
+        let Some((named, rest)) = named_by(self.file(), items) else {
+            return Err(self.fault(
+                &first.span,
+                "what it calls is not stated",
+                "call it by its name",
+            ));
+        };
+        let arguments: &[Argument] = match &named.what {
             What::Call(arguments) => arguments,
             _ => &[],
         };
-        let mut rest = &items[1..];
-        let called = match word.as_slice() {
-            b"PCALL" => match (&first.what, rest.first()) {
-                (What::Name, Some(item)) => {
-                    rest = &rest[1..];
-                    if let What::Call(found) = &item.what {
-                        arguments = found;
-                    }
-                    name(item)
-                }
-                _ => {
-                    return Err(self.fault(
-                        &first.span,
-                        "what it calls is not stated",
-                        "call it by its name",
-                    ));
-                }
-            },
-            _ => word,
-        };
-        let called = program_name(&format!("{}.SPF", String::from_utf8_lossy(&called)));
+        let called = key_of_call(self.file().part(&named.name));
         let is_value = matches!(first.what, What::Value { .. });
         let Some(unit) = self.names.get(&called).copied().filter(|_| !is_value) else {
-            // Of one that is in none of the files the reader says what is assumed.
+            // The reader of the flat text says what is assumed of a call that no file holds.
             return Ok(None);
         };
         let times = match rest {

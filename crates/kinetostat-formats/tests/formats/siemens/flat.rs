@@ -302,7 +302,7 @@ fn cycles_of_the_control_stay_over_their_holes() {
     assert_eq!(ends[2..4], over(10.0, 0.0));
     assert_eq!(ends[5..7], over(10.0, 55.0));
     assert_eq!(ends[7], [70.0, 55.0, 3.0]);
-    // Where the cycle ends, the control says: the way from there is not known.
+    // The way from the end of the cycle, which the control knows, is not known.
     assert_eq!(program.motions[3].follows, None);
     let told = program
         .findings

@@ -14,12 +14,13 @@ impl Interpreter<'_> {
         index: usize,
     ) -> Result<bool, ProgramError> {
         let words = program.words(&program.lines()[index]);
-        let called = words.iter().find(|word| word.letter == b'P');
-        let mut calls = words.iter();
-        let call = calls.find(|word| {
+        let call = words.iter().find(|word| {
             word.letter == b'M' && word.value == 98.0 || word.letter == b'G' && word.value == 65.0
         });
-        let (Some(call), Some(called)) = (call, called) else {
+        let Some(call) = call else {
+            return Ok(false);
+        };
+        let Some(called) = words.iter().find(|word| word.letter == b'P') else {
             return Ok(false);
         };
         let refused = |reason: &str, remedy: &str| {
