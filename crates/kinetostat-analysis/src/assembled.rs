@@ -1,11 +1,12 @@
 //! A machine as built beside the same machine as drawn: what its deviations lock in, without and under load.
 
 use kinetostat::{MechanismEquilibrium, Posture, Wrench, machine::LinearAssembly};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A value without load and under load: of the machine as built, the share of its deviations in it,
 /// and the first-order answer [R 6.15-6.20], which knows no weights and preloads.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct Cases<T> {
     /// Value of the machine as built.
     pub without_load: T,

@@ -6,6 +6,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::branches::{Branches, Place};
@@ -15,7 +16,7 @@ use crate::response::{ToolResponse, first_order};
 use crate::stability::eigenvalues;
 
 /// Instability of a tool by a process without delay.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Coupled {
     /// Two modes feed each other: vibration.
@@ -25,7 +26,7 @@ pub enum Coupled {
 }
 
 /// The smallest process that makes a tool unstable.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct CoupledLimit {
     /// Factor of the process: `Kc`, N/m, of a unit process, or the depth of cut, m.
     pub factor: f64,

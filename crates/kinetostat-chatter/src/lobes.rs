@@ -1,6 +1,7 @@
 //! Lobes: limits over the spindle speed.
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::cut::{checked_depth, checked_speed};
@@ -13,7 +14,7 @@ use crate::zeroth_order::{self, ZerothOrderLimit};
 const MOST_SPEEDS: usize = 100_000;
 
 /// Request for a lobe diagram.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct LobeRequest {
     /// Slowest spindle speed, rpm.
     pub from_rpm: f64,
@@ -90,7 +91,7 @@ impl LobeRequest {
 }
 
 /// Limits at one spindle speed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct LobePoint {
     /// All depths at which stability changes.
     pub exact: SpeedStability,
@@ -99,7 +100,7 @@ pub struct LobePoint {
 }
 
 /// Limits over the spindle speed, from the slowest upwards.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct LobeDiagram {
     /// Largest depth that was looked at, m.
     pub up_to: f64,

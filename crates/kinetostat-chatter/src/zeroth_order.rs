@@ -7,6 +7,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::branches::{Branches, Place};
@@ -15,7 +16,7 @@ use crate::number::{Complex64, smaller};
 use crate::stability::Regeneration;
 
 /// A limit of zeroth order.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct ZerothOrderLimit {
     /// Depth of cut, m.
     pub depth: f64,

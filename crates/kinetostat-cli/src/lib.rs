@@ -40,6 +40,7 @@ mod place;
 mod placing;
 mod program;
 mod reproduce;
+mod schema;
 mod shares;
 mod shell;
 mod stiffness;
@@ -207,6 +208,7 @@ fn run(command: Command, given: &Given) -> Answer<()> {
         Command::Import(args) => import::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),
         Command::Model(args) => model::run(&args),
+        Command::Schema(args) => schema::run(&args),
         Command::Completions(args) => shell::completions(&args, Cli::command()),
         Command::Man(args) => shell::man(&args, Cli::command()),
     }

@@ -7,13 +7,14 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{CutError, CutErrorKind, Result};
 use crate::number::larger;
 
 /// Edge of the tool in contact, and the direction of its extent.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Edge {
     /// Edges on the envelope of the tool (cylinder, ball, corner radius, cone): extent along the axis, from the tip.
@@ -23,7 +24,7 @@ pub enum Edge {
 }
 
 /// A patch of the tool's envelope in the material: an extent of one edge times an arc.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct Contact {
     /// Edge in contact.
     pub edge: Edge,
@@ -82,7 +83,7 @@ impl Contact {
 }
 
 /// Side of the tool on which the part is, seen along the feed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
     /// Left of the feed: conventional milling (up) with a spindle that turns clockwise.
@@ -92,7 +93,7 @@ pub enum Side {
 }
 
 /// The contacts of a tool at one place of its path; none in air.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[serde(transparent)]
 pub struct Engagement {
     /// Patches that do not overlap.

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::number::counted;
@@ -29,7 +30,7 @@ use crate::number::counted;
 /// let lines = flat.lines_in("the worst is at line 3, then line 2");
 /// assert_eq!(lines.into_iter().collect::<Vec<_>>(), [2, 3]);
 /// ```
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct FlatProgram {
     /// File name of the flat program, with its folder where it keeps the name of its source; `None` if it was not written.

@@ -6,6 +6,7 @@ use kinetostat::{
     machine::{NearSingularity, SingularityKind},
 };
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::warning::{Warning, WarningCode};
@@ -20,7 +21,7 @@ use crate::warning::{Warning, WarningCode};
 pub const NEAR_SINGULAR: f64 = 0.05;
 
 /// A singular posture near the one that was requested.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct NearSingular {
     /// Passive joints let go (a motion gained), or joints cannot follow (a motion lost).
     pub kind: NearKind,
@@ -50,7 +51,7 @@ impl NearSingular {
 }
 
 /// Kind of a singular posture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NearKind {
     /// A motion that neither actuators nor limbs hold.

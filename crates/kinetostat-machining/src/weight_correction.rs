@@ -1,6 +1,7 @@
 //! Share of the displacement by the machine's own weight that counts as an error of the program.
 
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Share of the displacement by the machine's own weight, and by what else acts in its model (springs, counterweights), that counts
@@ -15,7 +16,7 @@ use serde::{Deserialize, Serialize};
 /// assert!(TouchOff::at(on_a_line).is_err());
 /// # Ok::<(), kinetostat_machining::TouchOffError>(())
 /// ```
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum WeightCorrection {
     /// Not stated: a run along a program is refused where own weight moves the tool.
@@ -53,7 +54,7 @@ impl WeightCorrection {
 ///
 /// One place measures where the part lies: the displacement there is no error anywhere. Several places measure its orientation,
 /// too: the rigid motion that fits the displacements there best is no error.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[serde(transparent)]
 pub struct TouchOff {
     places_mm: Vec<[f64; 3]>,

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::evaluate::OnAll;
@@ -9,7 +10,7 @@ use crate::space::{Place, Space, Variable};
 use crate::value::{Refusal, Value};
 
 /// A placement that was solved at all places of the program.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Candidate {
     /// Name of the fixture; `None` if there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -69,7 +70,7 @@ impl Candidate {
 }
 
 /// A placement that was looked at on the way, at the places that the search looks at.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Evaluated {
     /// The placement.
     #[serde(skip)]
@@ -79,7 +80,7 @@ pub struct Evaluated {
 }
 
 /// Sensitivity to one side of the best placement.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct SideSensitivity {
     /// Change of the figure by that of the variable close by, its unit per mm or deg; none at the end of the range, and where a program
     /// cannot be run there.
@@ -90,7 +91,7 @@ pub struct SideSensitivity {
 }
 
 /// Sensitivity of the figure around the best placement to one variable.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Sensitivity {
     /// Variable that changes.
     pub variable: Variable,
@@ -101,7 +102,7 @@ pub struct Sensitivity {
 }
 
 /// The figure over two variables (or one), all others as in the best placement.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct MapPanel {
     /// Across and up; one alone is a curve.
     pub variables: Vec<Variable>,
@@ -115,7 +116,7 @@ pub struct MapPanel {
 }
 
 /// Remark on an answer beside its figures, in words.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Finding {
     /// Kind: `at_bound`, `flat`, `few_reachable`, `thinned`, `not_better`.
     pub kind: &'static str,
@@ -124,7 +125,7 @@ pub struct Finding {
 }
 
 /// Explanation of a search without a placement that can be taken.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Nowhere {
     /// The one that is nearest to being taken, and why it is refused.
     pub nearest: Candidate,
@@ -133,7 +134,7 @@ pub struct Nowhere {
 }
 
 /// Result of a search.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Placed {
     /// The best placement; `None` if none can be taken.
     pub best: Option<Candidate>,

@@ -4,6 +4,7 @@ use kinetostat::Pose;
 use kinetostat::number::{larger, smaller};
 use kinetostat_machining::{MovableProgram, Placement, Reach, RunError};
 use nalgebra::{Point3, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::objective::Objective;
@@ -288,7 +289,7 @@ fn apart(known: &[(f64, usize)], count: usize) -> Vec<usize> {
 }
 
 /// A box with its edges along the axes of the base, mm.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Obstacle {
     /// Name in messages.
@@ -300,7 +301,7 @@ pub struct Obstacle {
 }
 
 /// A box around the part, with its edges along the axes of the program, mm.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PartBox {
     /// Smallest coordinates of the program, mm.

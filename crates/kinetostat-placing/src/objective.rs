@@ -1,10 +1,11 @@
 //! Objective of a placement: the largest value of a figure over the program.
 
 use kinetostat_machining::PointResult;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Figure to be minimised: its largest value over all places of the program.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Objective {
     /// Error of the tool's tip without compensation, at feed, mm.

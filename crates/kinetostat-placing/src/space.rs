@@ -3,10 +3,11 @@
 use kinetostat::Pose;
 use kinetostat_machining::Placement;
 use nalgebra::{UnitQuaternion, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Variable of a placement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema, Deserialize)]
 pub enum Variable {
     /// Program's zero along x of the base, mm.
     #[serde(rename = "x_mm")]

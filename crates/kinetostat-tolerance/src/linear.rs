@@ -1,5 +1,6 @@
 //! Linear propagation: derivatives by central differences, variance `g^T C g`.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::uncertain::Uncertainties;
@@ -8,7 +9,7 @@ use crate::uncertain::Uncertainties;
 const STEP: f64 = 0.01;
 
 /// A number as a linear function of the uncertain ones.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Linear {
     /// Value for the numbers of the drawing.
     pub nominal: f64,

@@ -5,6 +5,7 @@ use kinetostat::compensation::target_under_load_following;
 use kinetostat::nalgebra::{Matrix6, Matrix6x3, Vector3};
 use kinetostat::{Directions, Mechanism, Pose, Wrench};
 use kinetostat_model::{Model, ModelError, ParametricModel};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::file::{Source, UncertaintyFile};
@@ -19,7 +20,7 @@ const LOADED: [Quantity; 3] = [
 ];
 
 /// Quantity requested of a machine at each place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
     /// Displacement from the commanded to the actual place of the unloaded tool (mm): errors of manufacture and assembly, and

@@ -1,5 +1,6 @@
 //! Statistics of draws: mean, scatter and quantiles, each with its confidence.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, StudentsT};
 
@@ -12,7 +13,7 @@ pub const CONFIDENCE: f64 = 0.95;
 pub const SHARES: [f64; 5] = [0.025, 0.05, 0.5, 0.95, 0.975];
 
 /// A number estimated from draws, and how far it may be off with [`CONFIDENCE`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Estimate {
     /// The estimate.
     pub value: f64,
@@ -40,7 +41,7 @@ impl Estimate {
 }
 
 /// A quantile, with an interval that holds it with [`CONFIDENCE`] or more.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Quantile {
     /// Share of the draws below.
     pub share: f64,
@@ -53,7 +54,7 @@ pub struct Quantile {
 }
 
 /// Statistics of one number over the draws.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Summary {
     /// Draws with an answer.
     pub answered: usize,

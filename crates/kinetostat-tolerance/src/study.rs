@@ -11,6 +11,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use kinetostat::number::short;
 use kinetostat_machining::{RunError, Watch};
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::draws::{Draws, REPLICATES};
@@ -57,7 +58,7 @@ pub fn can_be_kept(rows: usize, width: usize) -> Result<(), TooManyNumbers> {
 }
 
 /// Draws without a whole answer, by reason. None is dropped in silence.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Failures {
     /// Draws whose numbers make no machine.
     pub no_machine: usize,
@@ -197,7 +198,7 @@ pub fn linearised(
 }
 
 /// Verdict on linear propagation for one output.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Verdict {
     /// Root mean square of exact minus linear over all draws, in standard deviations of the draws.
     pub nonlinearity: f64,
@@ -206,7 +207,7 @@ pub struct Verdict {
 }
 
 /// Results of one output at one place.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct OutputAnswer {
     /// Result of linear propagation.
     pub linear: Linear,
@@ -273,7 +274,7 @@ pub fn sobol(
 pub const MOST_MISSING: f64 = 0.02;
 
 /// Share of the variance that a number explains.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct SobolIndex {
     /// Share that it explains alone.
     pub first: Estimate,

@@ -1,10 +1,11 @@
 //! Entries of the reproduction: a table, an equation or a figure of the report, as numbers beside their print.
 
 use kinetostat_report::Plot;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A table, numbered equation or figure of the report.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Entry {
     /// Identifier, as in `table-5.2`, `eq-3.34`, `fig-5.7`.
     pub id: &'static str,
@@ -18,7 +19,7 @@ pub struct Entry {
 }
 
 /// Number of an entry, printed and computed.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Item {
     /// Name of the number, in words.
     pub name: String,
@@ -35,7 +36,7 @@ pub struct Item {
 }
 
 /// Agreement between print and computation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
     /// The printed digits are the rounding of the computed number.

@@ -16,10 +16,11 @@ use std::collections::BTreeMap;
 
 use kinetostat::machine::{LinearisedMachine, MachineMotion, WorkOf};
 use kinetostat::{Mechanism, MechanismEquilibrium, Posture, Wrench};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Kind of a part of a machine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum PartKind {

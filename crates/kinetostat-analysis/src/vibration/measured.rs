@@ -6,6 +6,7 @@ use kinetostat_chatter::{
     ShapedMode, fit_modes, pair_modes, scale_parameters,
 };
 use kinetostat_dynamics::ModeKind;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::vibration::machine::VibratingMachine;
@@ -20,7 +21,7 @@ const EXCITED: f64 = 1e-3;
 const SEEN: f64 = 1e-6;
 
 /// Modes that were found in measured responses of the tool's tip.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct MeasuredModes {
     /// Frequencies, damping and constants of the curves, and how well they follow them.
     pub fit: Fit,

@@ -1,6 +1,7 @@
 //! Force per area of chip.
 
 use kinetostat_cutting::ForceLaw;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{ChatterError, ChatterErrorKind, Result, above};
@@ -19,7 +20,7 @@ use crate::error::{ChatterError, ChatterErrorKind, Result, above};
 /// assert_eq!(by_area, Coefficients::with_ratios(8e8, 0.3, 0.0)?);
 /// # Ok::<(), kinetostat_chatter::ChatterError>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct Coefficients {
     tangential: f64,
     radial: f64,
@@ -27,7 +28,7 @@ pub struct Coefficients {
 }
 
 /// A law of force as a straight line near one thickness of chip.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Linearised {
     /// Slope of the law.
     pub coefficients: Coefficients,

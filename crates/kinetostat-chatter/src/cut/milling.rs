@@ -8,6 +8,7 @@ use std::f64::consts::{PI, TAU};
 
 use kinetostat_cutting::{Shape, Tool};
 use nalgebra::Matrix3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::cut::coefficients::Coefficients;
@@ -184,7 +185,7 @@ impl MillingCut {
 }
 
 /// Up or down.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Milled {
     /// Conventional: the chip begins with no thickness, the part is on the left with a spindle that turns clockwise.
@@ -194,7 +195,7 @@ pub enum Milled {
 }
 
 /// The arc on which a tooth is in the material, rad.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct Arc {
     entry: f64,
     exit: f64,

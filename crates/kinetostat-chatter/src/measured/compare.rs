@@ -1,11 +1,12 @@
 //! Measured modes beside those of a model.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::{ChatterError, ChatterErrorKind, Result};
 
 /// A mode by frequency, damping and its shape at the places that are compared.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ShapedMode {
     /// Natural frequency, Hz.
     pub frequency_hz: f64,
@@ -16,7 +17,7 @@ pub struct ShapedMode {
 }
 
 /// A measured mode with that of the model which it resembles most.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ModePair {
     /// Number of the measured mode.
     pub measured: usize,

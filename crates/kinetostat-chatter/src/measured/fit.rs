@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::{DMatrix, DVector};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::{ChatterError, ChatterErrorKind, Result};
@@ -16,7 +17,7 @@ const EXTRA: usize = 3;
 const MOST_DAMPED: f64 = 0.5;
 
 /// One mode of measured curves.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FittedMode {
     /// Undamped natural frequency, Hz.
     pub frequency_hz: f64,
@@ -41,7 +42,7 @@ impl FittedMode {
 }
 
 /// Modes of measured curves and how well they follow them.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Fit {
     /// The modes in the band, by frequency.
     pub modes: Vec<FittedMode>,

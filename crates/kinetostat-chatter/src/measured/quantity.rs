@@ -1,9 +1,10 @@
 //! Measured motions and their units.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The motion that a response is by a force of 1 N.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Motion {
     /// Displacement, m/N: receptance.

@@ -4,13 +4,14 @@
 //! takes the first to the second. Steps are those of Levenberg and Marquardt in logarithms, within bounds.
 
 use nalgebra::{DMatrix, DVector};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::{ChatterError, ChatterErrorKind, Result, above};
 use crate::number::larger;
 
 /// A positive parameter and its bounds.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Parameter {
     /// Name of the parameter.
     pub name: String,
@@ -23,7 +24,7 @@ pub struct Parameter {
 }
 
 /// Scaled parameters.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Scaled {
     /// Their values.
     pub values: Vec<f64>,

@@ -1,12 +1,13 @@
 //! Depths between which a cut is stable at one speed, as they were found.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::stability::multiplier::Instability;
 use crate::stability::swinging::LeftOut;
 
 /// A depth at which the cut becomes unstable or stable.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct Crossing {
     /// Depth of cut, m.
     pub depth: f64,
@@ -23,7 +24,7 @@ pub struct Crossing {
 }
 
 /// Stability of a cut at one spindle speed, from depth 0 to a largest depth.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct SpeedStability {
     /// Spindle speed, rpm.
     pub speed_rpm: f64,

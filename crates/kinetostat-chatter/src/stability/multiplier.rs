@@ -3,13 +3,14 @@
 use std::f64::consts::TAU;
 
 use nalgebra::{DVector, Matrix3, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::number::{Complex64, cis};
 use crate::stability::operator::Operator;
 
 /// Type of a cut's instability.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Instability {
     /// The multiplier is -1: the tool repeats itself every other tooth, chatter at odd multiples of half the tooth frequency.
@@ -19,7 +20,7 @@ pub enum Instability {
 }
 
 /// The largest multiplier of one period.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Multiplier {
     /// Real part.
     pub real: f64,

@@ -1,5 +1,6 @@
 //! Selects the modes of a tool that are kept dynamic in a cut; the others enter as residual flexibility.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::number::larger;
@@ -25,7 +26,7 @@ impl Swinging {
 }
 
 /// A mode that is taken as a spring although it counts.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct LeftOut {
     /// Frequency, Hz.
     pub frequency_hz: f64,

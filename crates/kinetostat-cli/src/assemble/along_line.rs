@@ -9,6 +9,7 @@ use kinetostat_machining::number::counted;
 use kinetostat_machining::{Solving, Warning, WarningCode};
 use kinetostat_report::{Plot, PlotLine};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::assemble::arguments::{AssembleArgs, Component};
@@ -25,7 +26,7 @@ use crate::ui::warnings;
 const MOST_POINTS: usize = 100_000;
 
 /// The answer, stable names with units.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct AlongLine {
     schema: u32,
     kinetostat_version: &'static str,
@@ -45,7 +46,7 @@ pub(crate) struct AlongLine {
 }
 
 /// Displacements of the tool's tip from its target, base axes.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Point {
     /// Distance from the start of the line.
     distance_mm: f64,

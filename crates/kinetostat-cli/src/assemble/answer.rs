@@ -9,6 +9,7 @@ use kinetostat::{
 };
 use kinetostat_analysis::assembled::{AssembledMachine, Cases};
 use kinetostat_machining::{Warning, WarningCode};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::assemble::query::AssemblyQuery;
@@ -17,7 +18,7 @@ use crate::place::query::AnswerHead;
 use crate::ui::failure::Answer;
 
 /// The answer, stable names with units.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Assembly {
     #[serde(flatten)]
     pub(crate) head: AnswerHead,
@@ -42,27 +43,27 @@ pub(crate) struct Assembly {
 }
 
 /// Number and list of the directions in which the limbs are over-constrained.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Directions {
     pub(crate) degree: usize,
     pub(crate) stresses: Vec<StressAnswer>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct StressAnswer {
     pub(crate) in_words: String,
     limbs: Vec<StressOfLimb>,
 }
 
 /// Limb's share of one self-equilibrated set of wrenches: the largest has size 1 N.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct StressOfLimb {
     name: String,
     force_n: [f64; 3],
     moment_n_m: [f64; 3],
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct PlatformAnswer {
     pub(crate) name: String,
     pub(crate) carries_the_tool: bool,
@@ -72,7 +73,7 @@ pub(crate) struct PlatformAnswer {
 }
 
 /// Wrench on a limb's end, about it, base axes; its joints and springs.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct LimbAnswer {
     pub(crate) name: String,
     pub(crate) force_n: Cases<[f64; 3]>,
@@ -83,7 +84,7 @@ pub(crate) struct LimbAnswer {
     pub(crate) springs: Vec<SpringAnswer>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct JointAnswer {
     pub(crate) name: String,
     pub(crate) unit: &'static str,
@@ -92,7 +93,7 @@ pub(crate) struct JointAnswer {
 }
 
 /// One direction of a spring, in its own axes.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct SpringAnswer {
     pub(crate) spring: String,
     /// Spring and direction, as in `foot.rx`.

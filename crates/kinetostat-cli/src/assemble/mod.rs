@@ -16,7 +16,14 @@ use crate::assemble::query::assembly_query;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::ui::failure::Answer;
 use crate::ui::json;
+use crate::ui::result_form::ResultForm;
 use crate::ui::screen::{self, Stream};
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[
+    ResultForm::of::<answer::Assembly>("an assembly at one place"),
+    ResultForm::of::<along_line::AlongLine>("an assembly along a line"),
+];
 
 pub(crate) fn run(args: &AssembleArgs) -> Answer<()> {
     let assembly = assembly_query(args)?;

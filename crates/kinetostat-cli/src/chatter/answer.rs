@@ -6,12 +6,13 @@ use kinetostat_analysis::vibration::program::{
 use kinetostat_chatter::Instability;
 use kinetostat_machining::{FlatProgram, Warning};
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::job::chatter::ChatterSetting;
 use crate::program::chatter::limits;
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct ChatterAnswer {
     pub(crate) schema: u32,
     pub(crate) kinetostat_version: &'static str,
@@ -36,7 +37,7 @@ pub(crate) struct ChatterAnswer {
 }
 
 /// A place of the program, for those that are like it.
-#[derive(Clone, Serialize)]
+#[derive(Clone, Serialize, JsonSchema)]
 pub(crate) struct Place {
     pub(crate) line: usize,
     /// File and line of origin, if the program was expanded.
@@ -78,7 +79,7 @@ pub(crate) struct Place {
 }
 
 /// The steady vibration of the tip about its mean place.
-#[derive(Clone, Copy, Serialize)]
+#[derive(Clone, Copy, Serialize, JsonSchema)]
 pub(crate) struct Vibration {
     pub(crate) tooth_passing_hz: f64,
     /// Root of the mean square of the distance from the mean place.
@@ -106,7 +107,7 @@ impl Vibration {
 }
 
 /// Lines in a row that chatter.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Stretch {
     pub(crate) first_line: usize,
     pub(crate) last_line: usize,

@@ -29,12 +29,17 @@ use crate::program::flat_lines::of_warnings;
 use crate::program::solve::{forces_of, with_task};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::progress::{AsOne, Progress};
+use crate::ui::result_form::ResultForm;
 use crate::ui::threads::in_threads;
 use crate::vibration::damping::words;
 use crate::vibration::stability::implausible;
 
 /// Shares of the forces of the cut and of their stability in the work.
 const SHARES: [f64; 2] = [0.15, 0.85];
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] =
+    &[ResultForm::of::<ChatterAnswer>("chatter along a program")];
 
 pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
     let files = InputFiles::default();

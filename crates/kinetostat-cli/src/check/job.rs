@@ -11,6 +11,7 @@ use kinetostat_machining::{
 };
 use kinetostat_program::{Knowledge, Move, MoveKind, Path as ToolPath};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::convert::for_run::refuse_unconvertible;
@@ -42,8 +43,8 @@ use crate::ui::{json, warnings};
 use crate::vibration::damping::words;
 
 /// Content of a job, stable names with units.
-#[derive(Serialize)]
-struct JobFindings {
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct JobFindings {
     schema: u32,
     kinetostat_version: &'static str,
     job: String,
@@ -66,7 +67,7 @@ struct JobFindings {
     refused: Option<Failure>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct ProgramFinding {
     name: String,
     /// Origin of the lines, if the program was run once and written flat.
@@ -85,7 +86,7 @@ struct ProgramFinding {
     largest_mm: Option<[f64; 3]>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct EndFinding {
     /// Name of the end, e.g. `smallest x`.
     end: String,
@@ -96,7 +97,7 @@ struct EndFinding {
     problem: Option<String>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct OutputFinding {
     what: &'static str,
     path: String,

@@ -11,13 +11,21 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::check::model::findings::findings;
+use crate::check::model::findings::{Findings, findings};
 use crate::check::model::text::answer_text;
 use crate::files::file_kind::FileKind;
 use crate::files::input_files::InputFiles;
 use crate::options::{EXIT_CODES, number, vector};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
+use crate::ui::result_form::ResultForm;
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[
+    ResultForm::of::<Findings>("a model"),
+    ResultForm::of::<job::JobFindings>("a job"),
+    ResultForm::of::<poses::PoseComparison>("a model beside measured poses"),
+];
 
 pub(crate) fn run(args: &CheckArgs) -> Answer<()> {
     let file = Path::new(&args.model);

@@ -30,6 +30,7 @@ use crate::modes::arguments::ModesArgs;
 use crate::options::EXIT_CODES;
 use crate::placing::arguments::PlacingArgs;
 use crate::reproduce::ReproduceArgs;
+use crate::schema::SchemaArgs;
 use crate::shares::arguments::SharesArgs;
 use crate::shell::{CompletionsArgs, ManArgs};
 use crate::stiffness::arguments::StiffnessArgs;
@@ -106,6 +107,7 @@ pub(crate) enum Command {
     Import(Box<ImportArgs>),
     Reproduce(ReproduceArgs),
     Model(ModelArgs),
+    Schema(SchemaArgs),
     Completions(CompletionsArgs),
     Man(ManArgs),
 }

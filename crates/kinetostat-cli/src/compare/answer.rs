@@ -1,9 +1,10 @@
 //! The answer of `compare`, stable names with units.
 
 use kinetostat_machining::Warning;
+use schemars::JsonSchema;
 use serde::Serialize;
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Compared {
     pub(crate) schema: u32,
     pub(crate) kinetostat_version: &'static str,
@@ -16,14 +17,14 @@ pub(crate) struct Compared {
     pub(crate) warnings: Vec<Warning>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct AtPlace {
     pub(crate) a: Figures,
     pub(crate) b: Figures,
 }
 
 /// Figures of the unloaded machine as drawn.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Figures {
     pub(crate) position_mm: [f64; 3],
     pub(crate) smallest_stiffness_n_per_mm: f64,
@@ -35,7 +36,7 @@ pub(crate) struct Figures {
     pub(crate) shares_z: Vec<Share>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Share {
     pub(crate) limb: Option<String>,
     pub(crate) name: String,
@@ -43,7 +44,7 @@ pub(crate) struct Share {
 }
 
 /// The smallest stiffness of B by that of A over a grid.
-#[derive(Clone, Serialize)]
+#[derive(Clone, Serialize, JsonSchema)]
 pub(crate) struct Summary {
     pub(crate) places: usize,
     /// Places that both reach within their limits, with a stiffness.

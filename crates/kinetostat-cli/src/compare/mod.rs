@@ -23,6 +23,7 @@ use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::{fixed, number, short, triple};
+use crate::ui::result_form::ResultForm;
 use crate::ui::warnings;
 
 /// Design that is compared with another one.
@@ -95,6 +96,9 @@ impl Design {
         })
     }
 }
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<Compared>("two machines")];
 
 pub(crate) fn run(args: &CompareArgs) -> Answer<()> {
     let length = args.tool_length_mm.unwrap_or(0.0);

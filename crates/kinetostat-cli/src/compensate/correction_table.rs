@@ -12,6 +12,7 @@ use kinetostat_machining::{
     of_table, unchanged_text, wide_table,
 };
 use kinetostat_program::{Accounting, CorrectionMap, Path as ToolPath, WriteOptions};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::files::csv_text::with_decimal_points;
@@ -29,8 +30,8 @@ use crate::ui::progress::Progress;
 use crate::ui::{fault_list, json, warnings};
 
 /// Result of a program corrected from a table.
-#[derive(Serialize)]
-struct MapResult<'a> {
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct MapResult<'a> {
     schema: u32,
     kinetostat_version: &'static str,
     program: &'a str,

@@ -12,7 +12,7 @@ mod long;
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_machining::merged;
+use kinetostat_machining::{RunResult, merged};
 
 use crate::compensate::arguments::CompensateArgs;
 use crate::compensate::copy::{copy, rotary_of_copy};
@@ -40,6 +40,13 @@ use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::given::Given;
+use crate::ui::result_form::ResultForm;
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[
+    ResultForm::of::<RunResult>("a program corrected by a model"),
+    ResultForm::of::<correction_table::MapResult<'static>>("a program corrected from a table"),
+];
 
 pub(crate) fn run(mut args: CompensateArgs, given: &Given) -> Answer<()> {
     job_after_json(&mut args);

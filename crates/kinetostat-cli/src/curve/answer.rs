@@ -5,6 +5,7 @@ use kinetostat::continuation::{BranchEnd, SpecialKind};
 use kinetostat::number::{larger, smaller};
 use kinetostat_machining::{Warning, folds};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::curve::query::{CurveQuery, Measure};
@@ -15,7 +16,7 @@ use crate::place::query::AnswerHead;
 use crate::ui::failure::Failure;
 
 /// The answer, stable names with units.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct CurveAnswer {
     #[serde(flatten)]
     pub(crate) head: AnswerHead,
@@ -126,7 +127,7 @@ impl Units {
 }
 
 /// An equilibrium on a curve. Of displacement, load and slope only those of one unit are given.
-#[derive(Clone, Serialize)]
+#[derive(Clone, Serialize, JsonSchema)]
 pub(crate) struct PointAnswer {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) factor: Option<f64>,
@@ -167,7 +168,7 @@ pub(crate) struct PointAnswer {
 }
 
 /// A start, limit, bifurcation, landing or end of the curves, with the letter that drawing and text call it by.
-#[derive(Clone, Serialize)]
+#[derive(Clone, Serialize, JsonSchema)]
 pub(crate) struct NamedPoint {
     pub(crate) name: String,
     /// start, load_limit, displacement_limit, pitchfork, transcritical, multiple, crossing (stability
@@ -188,7 +189,7 @@ pub(crate) struct NamedPoint {
 }
 
 /// A jump from a limit point.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct JumpAnswer {
     pub(crate) from: String,
     /// dead_load or prescribed_motion.
@@ -199,7 +200,7 @@ pub(crate) struct JumpAnswer {
 }
 
 /// A critical load factor.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct CriticalAnswer {
     /// shape (the tool held where it is) or shape_and_tool (as prescribed).
     #[serde(rename = "judged")]
@@ -224,7 +225,7 @@ pub(crate) struct CriticalAnswer {
 }
 
 /// A path of equilibria.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct BranchAnswer {
     pub(crate) number: usize,
     /// Name of the point from which it was found; null for the start's and those of --all.

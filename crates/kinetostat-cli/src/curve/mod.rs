@@ -46,6 +46,11 @@ use crate::ui::background::Stage;
 use crate::ui::csv_table::{cell, cell_if_any, written};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::number;
+use crate::ui::result_form::ResultForm;
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] =
+    &[ResultForm::of::<CurveAnswer>("force against displacement")];
 
 pub(crate) fn run(args: &CurveArgs) -> Answer<()> {
     let command = CommandQuery {

@@ -5,6 +5,7 @@ use kinetostat::{
 };
 use kinetostat_analysis::instability::InstabilityShares;
 use kinetostat_machining::{NearSingular, Warning, WarningCode, folds, number as formatter};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::machine::displacement_warnings::not_stable;
@@ -15,7 +16,7 @@ use crate::place::joints::JointValue;
 use crate::place::query::{AnswerHead, PlaceQuery};
 
 /// The answer at one place, stable names with units.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Deflection {
     #[serde(flatten)]
     pub(crate) head: AnswerHead,
@@ -81,7 +82,7 @@ pub(crate) struct Deflection {
     pub(crate) warnings: Vec<Warning>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct ActuatorAnswer {
     pub(crate) name: String,
     pub(crate) command: f64,
@@ -90,7 +91,7 @@ pub(crate) struct ActuatorAnswer {
     pub(crate) force_unit: &'static str,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct LimbAnswer {
     pub(crate) name: String,
     pub(crate) force_n: [f64; 3],
@@ -105,7 +106,7 @@ pub(crate) struct LimbAnswer {
 }
 
 /// Axial load of a link.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct LinkAnswer {
     pub(crate) name: String,
     /// Axial force of its most compressed segment; negative compresses.

@@ -10,6 +10,7 @@ mod text;
 
 use std::path::Path;
 
+use kinetostat_machining::RunResult;
 use kinetostat_model::Model;
 
 use crate::convert::for_run::refuse_unconvertible;
@@ -39,6 +40,13 @@ use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::given::Given;
+use crate::ui::result_form::ResultForm;
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[
+    ResultForm::of::<answer::Deflection>("deflection at one place"),
+    ResultForm::of::<RunResult>("deflection along a program"),
+];
 
 pub(crate) fn run(args: DeflectArgs, given: &Given) -> Answer<()> {
     let subject = Path::new(&args.subject);

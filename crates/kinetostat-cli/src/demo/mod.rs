@@ -6,6 +6,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use kinetostat_machining::RunResult;
 use kinetostat_model::preset_text;
 
 use crate::files::input_files::InputFiles;
@@ -20,6 +21,7 @@ use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{listed, wrapped};
+use crate::ui::result_form::ResultForm;
 use crate::ui::safe_text::safe;
 use crate::ui::system_error::description;
 
@@ -83,6 +85,11 @@ limb = "leg z"
 at = "line"
 moved_by = { rotation_vector_deg = [1, 0, 0] }
 "#;
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<RunResult>(
+    "a program corrected by a model (result.json)",
+)];
 
 pub(crate) fn run(args: &DemoArgs) -> Answer<()> {
     let made = directory(&args.out)?;

@@ -7,14 +7,16 @@ use kinetostat_formats::{
     Language as Format, MakeLanguage, StatementRow, Treatment as OfStatement,
 };
 use kinetostat_program::{CODES, MOMENTS, Moment, Placed, Treatment as OfCode};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 use crate::ui::layout::{listed, wrapped};
+use crate::ui::result_form::ResultForm;
 use crate::ui::screen::{self, Stream};
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Table {
     schema: u32,
     kinetostat_version: &'static str,
@@ -22,6 +24,9 @@ struct Table {
     endings: &'static [&'static str],
     words: Vec<Row>,
 }
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<Table>("the words of a language")];
 
 pub(crate) fn run(args: &DialectArgs) -> Answer<()> {
     let show = match &args.what {
@@ -91,7 +96,7 @@ fn text(language: &Language, table: &Table) -> String {
 }
 
 /// A word of a language.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Row {
     pub(crate) word: String,
     #[serde(skip_serializing_if = "str::is_empty")]

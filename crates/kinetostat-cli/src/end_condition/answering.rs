@@ -2,6 +2,7 @@
 
 use kinetostat_analysis::serial_chain::is_serial_chain;
 use kinetostat_machining::Warning;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::files::answer_files::{AnswerFiles, ClaimedFiles, Shown};
@@ -26,7 +27,7 @@ const SCHEMA: u32 = 3;
 pub(crate) type Work<A> = Box<dyn FnOnce(AnswerHead, &Stage) -> Answer<A> + Send + 'static>;
 
 /// Answers a query: reads the model, claims the outputs, works, shows.
-pub(crate) fn answer_query<A: Serialize + Send + 'static>(
+pub(crate) fn answer_query<A: Serialize + JsonSchema + Send + 'static>(
     command: &CommandQuery<'_>,
     work_of: impl FnOnce(&PlaceQuery) -> Answer<Work<A>>,
     warnings: impl Fn(&mut A) -> &mut Vec<Warning>,

@@ -2,6 +2,7 @@
 
 use kinetostat::model::Role;
 use kinetostat::{Chain, MotionKind};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::machine::units::unit_of;
@@ -42,7 +43,7 @@ pub(crate) fn values_of(chain: &Chain, commands: &[f64], coordinates: &[f64]) ->
         .collect()
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub(crate) struct CoordinateName {
     pub(crate) name: String,
     /// passive joint, drive or spring.

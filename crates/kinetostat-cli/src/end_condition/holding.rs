@@ -2,6 +2,7 @@
 
 use kinetostat::{EndCondition, Pose, Prescribed, Wrench, spatial::turn_matrix};
 use nalgebra::{Rotation3, Vector3, Vector6};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::end_condition::arguments::EndArgs;
@@ -13,7 +14,7 @@ use crate::ui::numbers::{short, triple};
 pub(crate) const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
 /// End condition of the tool.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub(crate) struct Holding {
     /// Directions in which it is held.
     pub(crate) held: Vec<&'static str>,

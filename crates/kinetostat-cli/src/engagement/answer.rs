@@ -1,10 +1,11 @@
 //! The answer of `engagement`, stable names with units.
 
 use kinetostat_machining::{CuttingResult, FileRead, FlatProgram, Warning};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Engagement along a program.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct EngagementAnswer {
     pub(crate) schema: u32,
     pub(crate) kinetostat_version: &'static str,
@@ -26,7 +27,7 @@ pub(crate) struct EngagementAnswer {
 }
 
 /// A tool; the number is none for that of blocks whose tool has no entry.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct ToolAnswer {
     pub(crate) number: Option<u32>,
     pub(crate) shape: &'static str,
@@ -36,7 +37,7 @@ pub(crate) struct ToolAnswer {
 }
 
 /// Stock after the cut.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct StockAnswer {
     pub(crate) volume_mm3: f64,
     pub(crate) removed_mm3: f64,

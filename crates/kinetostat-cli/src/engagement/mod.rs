@@ -35,6 +35,12 @@ use crate::ui::csv_table::{cell, cell_if_any, written};
 use crate::ui::failure::Answer;
 use crate::ui::numbers::{number, short};
 use crate::ui::progress::Progress;
+use crate::ui::result_form::ResultForm;
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<EngagementAnswer>(
+    "engagement along a program",
+)];
 
 pub(crate) fn run(args: &EngagementArgs) -> Answer<()> {
     let files = InputFiles::default();

@@ -4,6 +4,7 @@
 use kinetostat::number::{larger, smaller};
 use kinetostat_machining::{Warning, folds};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::end_condition::coordinates::CoordinateName;
@@ -14,7 +15,7 @@ use crate::ui::failure::Failure;
 use crate::ui::numbers::number;
 
 /// The answer, stable names with units.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct EquilibriaAnswer {
     #[serde(flatten)]
     pub(crate) head: AnswerHead,
@@ -34,7 +35,7 @@ pub(crate) struct EquilibriaAnswer {
 }
 
 /// One equilibrium.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct ShapeAnswer {
     pub(crate) number: usize,
     /// Springs and loads, up to a constant; of the springs alone where a load has no potential.
@@ -66,7 +67,7 @@ pub(crate) struct ShapeAnswer {
 }
 
 /// Completeness of the list.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Coverage {
     pub(crate) starts: usize,
     pub(crate) ended_within_bounds: usize,
@@ -88,7 +89,7 @@ pub(crate) struct Coverage {
 }
 
 /// Shapes of one limb with the tool held.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct LimbCoverage {
     pub(crate) name: String,
     pub(crate) shapes: usize,

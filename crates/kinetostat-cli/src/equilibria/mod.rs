@@ -36,6 +36,12 @@ use crate::place::query::{AnswerHead, PlaceQuery};
 use crate::ui::background::Stage;
 use crate::ui::csv_table::{cell, cell_if_any, written};
 use crate::ui::failure::Answer;
+use crate::ui::result_form::ResultForm;
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<EquilibriaAnswer>(
+    "equilibria under one load",
+)];
 
 pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
     let command = CommandQuery {

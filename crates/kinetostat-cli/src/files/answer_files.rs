@@ -5,6 +5,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::files::outputs::{self, Existing, Outputs};
@@ -75,7 +76,11 @@ impl ClaimedFiles {
     }
 
     /// Writes what was requested and says the rest.
-    pub(crate) fn finish<T: Serialize>(mut self, shown: &Shown, answer: &T) -> Answer<()> {
+    pub(crate) fn finish<T: Serialize + JsonSchema>(
+        mut self,
+        shown: &Shown,
+        answer: &T,
+    ) -> Answer<()> {
         if let Some(index) = self.json {
             self.outputs.fill(index, json::json(answer)?.as_bytes())?;
         }

@@ -2,10 +2,11 @@
 
 use kinetostat_cutting::{Group, Law, Material, MeasuredIn};
 use kinetostat_machining::Warning;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Force, torque and moment of one cut; forces are those on the tool, in the axes of the cut.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct ForceAnswer {
     pub(crate) schema: u32,
     pub(crate) kinetostat_version: &'static str,
@@ -33,7 +34,7 @@ pub(crate) struct ForceAnswer {
     pub(crate) revolution: Vec<AtAngle>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct MaterialAnswer {
     pub(crate) name: String,
     pub(crate) law: &'static str,
@@ -45,14 +46,14 @@ pub(crate) struct MaterialAnswer {
     pub(crate) factors: Vec<FactorAnswer>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct FactorAnswer {
     pub(crate) symbol: &'static str,
     pub(crate) value: f64,
     pub(crate) reason: String,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct ToolAnswer {
     pub(crate) number: Option<u32>,
     pub(crate) name: String,
@@ -66,7 +67,7 @@ pub(crate) struct ToolAnswer {
     pub(crate) run_out_angle_deg: f64,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct CutAnswer {
     pub(crate) width_mm: f64,
     pub(crate) depth_mm: f64,
@@ -89,7 +90,7 @@ pub(crate) struct CutAnswer {
     pub(crate) mean_chip_mm: f64,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct MeanAnswer {
     pub(crate) force_n: [f64; 3],
     /// Force minus and plus the spread of the material.
@@ -104,7 +105,7 @@ pub(crate) struct MeanAnswer {
     pub(crate) job_load: JobLoad,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct JobLoad {
     pub(crate) radial_n: f64,
     pub(crate) tangential_n: f64,
@@ -114,7 +115,7 @@ pub(crate) struct JobLoad {
     pub(crate) moment_n_m: [f64; 3],
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct PeakAnswer {
     /// The force when its part across the tool is largest.
     pub(crate) force_n: [f64; 3],
@@ -128,7 +129,7 @@ pub(crate) struct PeakAnswer {
     pub(crate) power_w: Option<f64>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct WallAnswer {
     /// `left` or `right` of the feed.
     pub(crate) wall: &'static str,
@@ -139,20 +140,20 @@ pub(crate) struct WallAnswer {
     pub(crate) heights: Vec<AtHeight>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct AtHeight {
     pub(crate) above_tip_mm: f64,
     pub(crate) force_n: [f64; 3],
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct HarmonicAnswer {
     pub(crate) per_revolution: usize,
     pub(crate) frequency_hz: Option<f64>,
     pub(crate) amplitude_n: [f64; 3],
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct SpindleAnswer {
     pub(crate) torque_n_mm: f64,
     pub(crate) power_w: f64,
@@ -171,14 +172,14 @@ pub(crate) struct AtAngle {
 }
 
 /// The known materials.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct MaterialList {
     pub(crate) schema: u32,
     pub(crate) kinetostat_version: &'static str,
     pub(crate) materials: Vec<ListedMaterial>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct ListedMaterial {
     pub(crate) name: String,
     pub(crate) aliases: Vec<String>,

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use kinetostat_cutting::{Drill, Material};
 use kinetostat_machining::Warning;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::files::answer_files::{ClaimedFiles, Shown};
@@ -18,8 +19,8 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{listed, wrapped};
 use crate::ui::numbers::{given, number};
 
-#[derive(Serialize)]
-struct DrillAnswer {
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct DrillAnswer {
     schema: u32,
     kinetostat_version: &'static str,
     question: String,

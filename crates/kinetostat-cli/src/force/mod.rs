@@ -38,6 +38,7 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::given::Given;
 use crate::ui::layout::{listed, wrapped};
 use crate::ui::numbers::{given, number};
+use crate::ui::result_form::ResultForm;
 
 /// Options of a dynamometer's log.
 const OF_A_FIT: [&str; 4] = ["--acts-on", "--group", "--spread-percent", "--out-material"];
@@ -105,6 +106,15 @@ fn refuse_unused(args: &ForceArgs, given: &Given) -> Answer<()> {
     }
     Ok(())
 }
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[
+    ResultForm::of::<ForceAnswer>("forces of a milling cut"),
+    ResultForm::of::<drilling::DrillAnswer>("forces of a drill"),
+    ResultForm::of::<turning::TurningAnswer>("forces of a turning cut"),
+    ResultForm::of::<fit::FitAnswer>("coefficients of a material, from measured forces"),
+    ResultForm::of::<MaterialList>("the materials that are known"),
+];
 
 pub(crate) fn run(args: &ForceArgs, given: &Given) -> Answer<()> {
     let files = InputFiles::default();

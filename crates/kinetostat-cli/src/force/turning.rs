@@ -2,6 +2,7 @@
 
 use kinetostat_cutting::{Material, Turning};
 use kinetostat_machining::Warning;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::files::answer_files::{ClaimedFiles, Shown};
@@ -16,8 +17,8 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{listed, wrapped};
 use crate::ui::numbers::{given, number};
 
-#[derive(Serialize)]
-struct TurningAnswer {
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct TurningAnswer {
     schema: u32,
     kinetostat_version: &'static str,
     question: String,

@@ -2,13 +2,14 @@
 
 use kinetostat_dynamics::Receptance;
 use kinetostat_machining::Warning;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::frf::arguments::{AXES, QuantityWord};
 use crate::frf::fit::FitAnswer;
 use crate::place::query::AnswerHead;
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct FrfAnswer {
     #[serde(flatten)]
     pub(crate) head: AnswerHead,
@@ -37,7 +38,7 @@ pub(crate) struct FrfAnswer {
 }
 
 /// One entry over the frequency.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Curve {
     /// Motion of the tip, base axes.
     pub(crate) to: &'static str,

@@ -3,6 +3,7 @@
 use kinetostat_analysis::vibration::{MeasuredModes, VibratingMachine};
 use kinetostat_chatter::MeasuredResponse;
 use kinetostat_dynamics::Damping;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::frf::arguments::FrfArgs;
@@ -13,7 +14,7 @@ use crate::ui::failure::{Answer, Failure};
 use crate::vibration::subject;
 
 /// Modes that were measured.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct FitAnswer {
     /// Curves that were fitted: those by the force of the first.
     pub(crate) curves: Vec<String>,
@@ -32,7 +33,7 @@ pub(crate) struct FitAnswer {
 }
 
 /// A measured mode with that of the model which it resembles most.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct MeasuredMode {
     pub(crate) frequency_hz: f64,
     pub(crate) damping_ratio: f64,

@@ -20,9 +20,15 @@ use crate::frf::answer::{FrfAnswer, curves};
 use crate::frf::arguments::{FrfArgs, QuantityWord};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::number;
+use crate::ui::result_form::ResultForm;
 use crate::vibration::damping::words;
 use crate::vibration::pair::{frequency_hz, growth_per_s};
 use crate::vibration::subject;
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<FrfAnswer>(
+    "frequency responses of the tip",
+)];
 
 pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
     let frequencies = frequencies(&args.frequencies)?;

@@ -8,6 +8,7 @@ use kinetostat_chatter::{ChatterError, Parameter, Scaled};
 use kinetostat_dynamics::{Damping, Held};
 use kinetostat_machining::straight_tool;
 use kinetostat_model::ParametricModel;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::files::input_files::InputFiles;
@@ -19,7 +20,7 @@ use crate::vibration::damping_numbers::{DampingNumber, is_of_damping, named, wit
 use crate::vibration::subject;
 
 /// Numbers of the model that were scaled.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct ScaledAnswer {
     pub(crate) parameters: Vec<ScaledParameter>,
     /// Factors that change no measured frequency by as much as it is known, in words.
@@ -32,7 +33,7 @@ pub(crate) struct ScaledAnswer {
     pub(crate) evaluations: usize,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct ScaledParameter {
     pub(crate) path: String,
     pub(crate) unit: &'static str,

@@ -8,6 +8,7 @@ use kinetostat_links::{
 use kinetostat_machining::number as formatter;
 use kinetostat_model::doubts_of_link_matrix;
 use nalgebra::Matrix6;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::files::outputs::{self, Existing, Outputs};
@@ -24,8 +25,8 @@ impl From<Error> for Failure {
 }
 
 /// The import, stable names with units.
-#[derive(Serialize)]
-struct LinkSummary<'a> {
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct LinkSummary<'a> {
     schema: u32,
     kinetostat_version: &'static str,
     source: String,

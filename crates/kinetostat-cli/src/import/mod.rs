@@ -24,6 +24,13 @@ use crate::import::link_arguments::{DisplacementsArgs, MatrixArgs};
 use crate::import::mesh::{axes, metres, needed_units, units};
 use crate::import::urdf::urdf;
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::result_form::ResultForm;
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[
+    ResultForm::of::<link::LinkSummary<'static>>("stiffness of a link"),
+    ResultForm::of::<urdf::ImportSummary<'static>>("a robot read from URDF"),
+];
 
 pub(crate) fn run(args: &ImportArgs) -> Answer<()> {
     match &args.action {

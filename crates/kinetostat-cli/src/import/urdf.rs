@@ -7,6 +7,7 @@ use kinetostat::MotionKind;
 use kinetostat_import::{
     Imported, JointStiffness, LoopFile, UrdfOptions, import_urdf, read_section, read_text,
 };
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::files::csv_text::with_decimal_points;
@@ -18,8 +19,8 @@ use crate::ui::layout::{item, listed, wrapped};
 use crate::ui::screen::{self, Stream};
 
 /// The import, stable names with units.
-#[derive(Serialize)]
-struct ImportSummary<'a> {
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct ImportSummary<'a> {
     schema: u32,
     kinetostat_version: &'static str,
     source: String,
@@ -39,13 +40,13 @@ struct ImportSummary<'a> {
     notices: Vec<Notice<'a>>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct BodySummary<'a> {
     name: &'a str,
     mass_kg: f64,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Notice<'a> {
     message: &'a str,
     help: &'a str,

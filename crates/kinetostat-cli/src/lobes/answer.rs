@@ -2,11 +2,12 @@
 
 use kinetostat_chatter::{Instability, LobeDiagram};
 use kinetostat_machining::Warning;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::place::query::AnswerHead;
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct LobesAnswer {
     #[serde(flatten)]
     pub(crate) head: AnswerHead,
@@ -39,7 +40,7 @@ pub(crate) struct LobesAnswer {
 }
 
 /// The speed with the largest limit.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Best {
     pub(crate) speed_rpm: f64,
     /// A limit, or the largest depth that was looked at.
@@ -64,7 +65,7 @@ impl Best {
 }
 
 /// Limits at one speed.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Point {
     pub(crate) speed_rpm: f64,
     /// Exact; null: stable up to the largest depth.

@@ -26,6 +26,7 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::given::Given;
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::{number, short, triple};
+use crate::ui::result_form::ResultForm;
 use crate::ui::warnings;
 use crate::vibration::damping::words;
 use crate::vibration::stability::{damped, implausible, instability, left_out_warning};
@@ -33,6 +34,10 @@ use crate::vibration::subject;
 
 /// Modes up to this frequency vibrate whether they count or not, Hz.
 const AT_LEAST_HZ: f64 = 1000.0;
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] =
+    &[ResultForm::of::<LobesAnswer>("stability lobes of a cut")];
 
 pub(crate) fn run(args: &LobesArgs, given: &Given) -> Answer<()> {
     refuse_unused(args, given)?;

@@ -2,13 +2,14 @@
 
 use kinetostat::{Direction, DirectionKind, Mechanism, MotionKind, model::Role};
 use kinetostat_machining::{Warning, WarningCode};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::{fixed, number, triple};
 
 /// One principal direction.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Principal {
     pub(crate) kind: DirectionKind,
     /// Absent if it is rigid (infinite).
@@ -23,7 +24,7 @@ pub(crate) struct Principal {
 }
 
 /// A joint or spring that moves while the tool moves in a direction.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Participation {
     pub(crate) name: String,
     pub(crate) role: Role,

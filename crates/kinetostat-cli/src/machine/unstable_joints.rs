@@ -4,12 +4,13 @@ use kinetostat::{
     Mechanism, MechanismEquilibrium, MotionKind, Posture, machine::NegativeNetStiffness,
 };
 use kinetostat_model::Model;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::ui::numbers::number;
 
 /// A joint whose spring the loads beat.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct UnstableJoint {
     pub(crate) limb: String,
     pub(crate) joint: String,
@@ -23,7 +24,7 @@ pub(crate) struct UnstableJoint {
 }
 
 /// A load's share.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct DestabilisingLoad {
     pub(crate) name: String,
     pub(crate) stiffness: f64,

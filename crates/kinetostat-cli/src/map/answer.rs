@@ -5,6 +5,7 @@ use kinetostat_machining::{
     Grid, MapPlace, PlaceState, Solving, Warning, WarningCode, folds_at, is_large,
 };
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::machine::displacement_warnings::not_stable;
@@ -12,7 +13,7 @@ use crate::map::arguments::Quantity;
 use crate::map::columns::Column;
 
 /// The answer, stable names with units.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct MapAnswer {
     pub(crate) schema: u32,
     pub(crate) kinetostat_version: &'static str,
@@ -45,7 +46,7 @@ fn is_one(count: &usize) -> bool {
     *count == 1
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct GridAnswer {
     pub(crate) from_mm: [f64; 3],
     pub(crate) to_mm: [f64; 3],
@@ -63,7 +64,7 @@ impl From<Grid> for GridAnswer {
 }
 
 /// Number of places by answer.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize, JsonSchema)]
 pub(crate) struct Places {
     #[serde(rename = "asked")]
     pub(crate) requested: usize,
@@ -105,7 +106,7 @@ impl Places {
 }
 
 /// Extremes and mean of one figure over all places where it is a number.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct FigureAnswer {
     pub(crate) name: String,
     pub(crate) unit: &'static str,
@@ -115,7 +116,7 @@ pub(crate) struct FigureAnswer {
 }
 
 /// A value and where it is.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub(crate) struct Extreme {
     pub(crate) value: f64,
     pub(crate) position_mm: [f64; 3],

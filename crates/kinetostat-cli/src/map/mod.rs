@@ -38,8 +38,13 @@ use crate::map::store::{Manifest, Store};
 use crate::place::orientation;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::{load_triple, short};
+use crate::ui::result_form::ResultForm;
 use crate::ui::{json, threads};
 use crate::vibration::subject;
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] =
+    &[ResultForm::of::<MapAnswer>("figures over the workspace")];
 
 pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     let (model, path) = InputFiles::default().model(&args.model, Path::new(""))?;

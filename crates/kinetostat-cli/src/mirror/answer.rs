@@ -7,12 +7,13 @@ use kinetostat_mirror::{
     Outcome, Outlier, Register, Registration, Repeatability, ToldBy, Unseen, on_lines,
 };
 use kinetostat_program::Accounting;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::ui::layout::item;
 use crate::ui::numbers::short;
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct MirrorAnswer {
     pub(crate) schema: u32,
     pub(crate) kinetostat_version: &'static str,
@@ -37,7 +38,7 @@ pub(crate) struct MirrorAnswer {
     pub(crate) accounting: Accounting,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct MeasurementResult {
     pub(crate) file: String,
     pub(crate) registration: Option<RegistrationResult>,
@@ -56,7 +57,7 @@ pub(crate) struct MeasurementResult {
 }
 
 /// Motion from the frame of the measurement to that of the program.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct RegistrationResult {
     pub(crate) rotation_vector_deg: [f64; 3],
     pub(crate) shift_mm: [f64; 3],
@@ -129,7 +130,7 @@ pub(crate) fn largest_correction_mm(state: &MirrorState) -> f64 {
 }
 
 /// A feature of the part as it was measured: before the correction of this trial.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct FeatureMeasured {
     pub(crate) name: String,
     pub(crate) lines: [usize; 2],

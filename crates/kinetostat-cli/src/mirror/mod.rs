@@ -45,12 +45,18 @@ use crate::mirror::written::written;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 use crate::ui::numbers::{number, short};
+use crate::ui::result_form::ResultForm;
 
 impl From<MirrorError> for Failure {
     fn from(error: MirrorError) -> Self {
         Self::input(error.to_string())
     }
 }
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<MirrorAnswer>(
+    "a program corrected by measured errors",
+)];
 
 pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
     let files = InputFiles::default();

@@ -6,6 +6,7 @@ use kinetostat::{Mechanism, Pose};
 use kinetostat_analysis::comparison;
 use kinetostat_analysis::comparison::{ActuatorCounts, ComparisonError, Mapping};
 use kinetostat_model::Model;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::files::input_files::InputFiles;
@@ -17,8 +18,8 @@ use crate::ui::layout::{self, columns, item, wrapped};
 use crate::ui::numbers::{fixed, number, short, triple};
 
 /// The answer, stable names with units.
-#[derive(Serialize)]
-struct Comparison {
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct Comparison {
     schema: u32,
     kinetostat_version: &'static str,
     a: String,
@@ -42,7 +43,7 @@ struct Comparison {
     stiffness_b_n_per_mm: Option<[f64; 3]>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct JointMap {
     a: String,
     b: String,
@@ -51,7 +52,7 @@ struct JointMap {
     unit: &'static str,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct FrameMap {
     position_mm: [f64; 3],
     rotation_vector_deg: [f64; 3],

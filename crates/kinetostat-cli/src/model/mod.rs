@@ -11,7 +11,13 @@ use kinetostat_model::{Model, PresetKind, json_schema, preset_names, preset_text
 use crate::model::arguments::{ModelAction, ModelArgs};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{self, listed};
+use crate::ui::result_form::ResultForm;
 use crate::ui::screen::{self, Stream};
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<compare::Comparison>(
+    "two models as one machine",
+)];
 
 pub(crate) fn run(args: &ModelArgs) -> Answer<()> {
     match &args.action {

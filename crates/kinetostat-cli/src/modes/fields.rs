@@ -2,11 +2,12 @@
 
 use kinetostat_dynamics::{DirectionCounts, EnergyShare, ModeKind, Verdict};
 use kinetostat_machining::Warning;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::place::query::AnswerHead;
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct ModesAnswer {
     #[serde(flatten)]
     pub(crate) head: AnswerHead,
@@ -40,7 +41,7 @@ pub(crate) struct ModesAnswer {
 }
 
 /// Complex modes under loads without a potential.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Circulatory {
     pub(crate) verdict: Verdict,
     /// Largest share of the imaginary part in a squared frequency without damping.
@@ -49,7 +50,7 @@ pub(crate) struct Circulatory {
 }
 
 /// A complex mode: `e^(lambda t)`.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct ComplexAnswer {
     pub(crate) frequency_hz: f64,
     /// Real part of lambda: positive where it grows.
@@ -58,7 +59,7 @@ pub(crate) struct ComplexAnswer {
     pub(crate) damping_ratio: f64,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct ModeAnswer {
     /// Number from 1, by ascending squared frequency.
     pub(crate) number: usize,

@@ -19,9 +19,14 @@ use crate::modes::arguments::ModesArgs;
 use crate::place::query::PlaceQuery;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::number;
+use crate::ui::result_form::ResultForm;
 use crate::vibration::pair::{frequency_hz, growth_per_s};
 use crate::vibration::subject;
 use crate::vibration::subject::refused;
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] =
+    &[ResultForm::of::<fields::ModesAnswer>("modes of vibration")];
 
 pub(crate) fn run(args: &ModesArgs) -> Answer<()> {
     if args.modes == 0 {

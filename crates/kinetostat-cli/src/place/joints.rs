@@ -3,6 +3,7 @@
 use kinetostat::{Mechanism, MotionKind};
 use kinetostat_model::schema::ControllerUnit;
 use kinetostat_model::{Controller, Model};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::machine::units::unit;
@@ -14,7 +15,7 @@ use crate::ui::screen::{self, Stream};
 use crate::ui::spelling::nearest;
 
 /// A joint or an axis and where it stands.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub(crate) struct JointValue {
     pub(crate) name: String,
     pub(crate) value: f64,

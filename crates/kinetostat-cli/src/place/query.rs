@@ -12,6 +12,7 @@ use kinetostat_machining::{
 };
 use kinetostat_model::{Controller, Model};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::files::input_files::InputFiles;
@@ -275,7 +276,7 @@ impl PlaceQuery {
 }
 
 /// Common head of the answers to a query.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct AnswerHead {
     schema: u32,
     kinetostat_version: &'static str,
@@ -286,7 +287,7 @@ pub(crate) struct AnswerHead {
 }
 
 /// The place of a query.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct PlaceAnswer {
     pub(crate) position_mm: [f64; 3],
     pub(crate) rotation_vector_deg: [f64; 3],

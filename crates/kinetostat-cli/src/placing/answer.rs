@@ -2,10 +2,11 @@
 
 use kinetostat_machining::{FileRead, RunResult, Warning};
 use kinetostat_placing::{Objective, Placed};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The answer of `place`: names with units.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct PlaceAnswer {
     pub(crate) schema: u32,
     pub(crate) kinetostat_version: &'static str,
@@ -24,7 +25,7 @@ pub(crate) struct PlaceAnswer {
 }
 
 /// Figures of the whole program at a placement.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct AtBest {
     pub(crate) max_position_error_mm: f64,
     pub(crate) rms_position_error_mm: f64,

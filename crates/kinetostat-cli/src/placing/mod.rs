@@ -39,6 +39,7 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::given::Given;
 use crate::ui::json;
 use crate::ui::progress::Progress;
+use crate::ui::result_form::ResultForm;
 use crate::ui::threads::in_threads;
 
 /// Figures below this, mm or deg or shares, are none.
@@ -46,6 +47,9 @@ const NOTHING: f64 = 1e-9;
 
 /// Upper limit of the placements that may fill the ranges.
 const MOST_SAMPLES: usize = 1_000_000;
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<PlaceAnswer>("placements of a part")];
 
 pub(crate) fn run(args: &PlacingArgs, given: &Given) -> Answer<()> {
     let files = InputFiles::default();

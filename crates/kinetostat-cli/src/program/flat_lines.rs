@@ -1,6 +1,9 @@
 //! Lines of a flat program in answers: beside each the line that it came from, in the JSON and under the text.
 
+use std::borrow::Cow;
+
 use kinetostat_machining::{FlatProgram, Warning, merged};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 
@@ -17,6 +20,17 @@ impl<T: Serialize> Serialize for WithSources<'_, T> {
         let mut value = serde_json::to_value(self.0).map_err(serde::ser::Error::custom)?;
         add(&mut value, flat);
         value.serialize(to)
+    }
+}
+
+/// The schema of the answer; the lines that are added are further properties.
+impl<T: JsonSchema> JsonSchema for WithSources<'_, T> {
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        T::json_schema(generator)
     }
 }
 

@@ -18,6 +18,10 @@ use crate::ui::json;
 use crate::ui::layout::{self, listed, wrapped};
 use crate::ui::numbers::number;
 use crate::ui::progress::Progress;
+use crate::ui::result_form::ResultForm;
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<Vec<Entry>>("numbers of the report")];
 
 pub(crate) fn run(args: &ReproduceArgs) -> Answer<()> {
     if let Some(id) = &args.id

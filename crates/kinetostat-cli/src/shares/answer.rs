@@ -4,11 +4,12 @@ use kinetostat_analysis::sensitivity::{Sensitivities, Sensitivity, Values};
 use kinetostat_analysis::shares::stiffening::Stiffening;
 use kinetostat_analysis::shares::{PartKind, Shares};
 use kinetostat_machining::Warning;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::place::query::AnswerHead;
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct SharesAnswer {
     #[serde(flatten)]
     pub(crate) head: AnswerHead,
@@ -39,7 +40,7 @@ pub(crate) struct SharesAnswer {
     pub(crate) warnings: Vec<Warning>,
 }
 
-#[derive(Clone, Serialize)]
+#[derive(Clone, Serialize, JsonSchema)]
 pub(crate) struct PartAnswer {
     pub(crate) limb: Option<String>,
     pub(crate) name: String,
@@ -58,14 +59,14 @@ impl PartAnswer {
     }
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct LimbAnswer {
     /// Absent for loads on platforms.
     pub(crate) name: Option<String>,
     pub(crate) share: f64,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct StiffeningAnswer {
     pub(crate) assumption: &'static str,
     pub(crate) target: f64,
@@ -77,7 +78,7 @@ pub(crate) struct StiffeningAnswer {
     pub(crate) parts: Vec<StiffenedAnswer>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct StiffenedAnswer {
     pub(crate) limb: Option<String>,
     pub(crate) name: String,
@@ -104,7 +105,7 @@ impl StiffeningAnswer {
     }
 }
 
-#[derive(Serialize, Default)]
+#[derive(Serialize, JsonSchema, Default)]
 pub(crate) struct SensitivitiesAnswer {
     /// Differentiation method.
     pub(crate) method: &'static str,
@@ -118,7 +119,7 @@ pub(crate) struct SensitivitiesAnswer {
     pub(crate) without_effect: Vec<String>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct SensitivityAnswer {
     pub(crate) path: String,
     pub(crate) value: f64,
@@ -134,7 +135,7 @@ pub(crate) struct SensitivityAnswer {
 }
 
 /// Derivatives by a number, or their errors in the same units.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct DerivativesAnswer {
     pub(crate) deflection: f64,
     pub(crate) displacement: [f64; 6],

@@ -25,6 +25,11 @@ use crate::shares::answer::{SensitivitiesAnswer, SharesAnswer, StiffeningAnswer,
 use crate::shares::arguments::SharesArgs;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::{short, triple};
+use crate::ui::result_form::ResultForm;
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] =
+    &[ResultForm::of::<SharesAnswer>("shares of a deflection")];
 
 pub(crate) fn run(args: &SharesArgs) -> Answer<()> {
     let (model, path) = InputFiles::default().model(&args.model, Path::new(""))?;

@@ -6,6 +6,7 @@ use kinetostat::{
 };
 use kinetostat_machining::{NearSingular, Warning, WarningCode};
 use nalgebra::Matrix6;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::machine::principal_directions::{Principal, principal, uneven};
@@ -13,7 +14,7 @@ use crate::place::joints::{self, JointValue};
 use crate::place::query::{AnswerHead, PlaceQuery};
 
 /// The answer, stable names with units.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Stiffness {
     #[serde(flatten)]
     pub(crate) head: AnswerHead,
@@ -60,14 +61,14 @@ pub(crate) struct Stiffness {
 }
 
 /// Stiffness of the machine as it stands, without a load on the tool.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct AtRest {
     pub(crate) stiffness_n_m_rad: [[f64; 6]; 6],
     pub(crate) smallest_stiffness_n_per_mm: f64,
     pub(crate) stable: bool,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct LimbShare {
     pub(crate) rank: usize,
     pub(crate) free: usize,

@@ -16,6 +16,12 @@ use crate::stiffness::arguments::StiffnessArgs;
 use crate::stiffness::text::answer_text;
 use crate::ui::failure::Answer;
 use crate::ui::json;
+use crate::ui::result_form::ResultForm;
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<answer::Stiffness>(
+    "stiffness at one place",
+)];
 
 pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
     let query = place_query(

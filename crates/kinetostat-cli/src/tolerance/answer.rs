@@ -2,9 +2,10 @@
 
 use kinetostat_machining::{UncertainNumber, Warning};
 use kinetostat_tolerance::{Failures, OutputAnswer, SobolIndex};
+use schemars::JsonSchema;
 use serde::Serialize;
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct ToleranceAnswer {
     pub(crate) schema: u32,
     pub(crate) kinetostat_version: &'static str,
@@ -27,13 +28,13 @@ pub(crate) struct ToleranceAnswer {
     pub(crate) warnings: Vec<Warning>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct PlaceResults {
     pub(crate) position_mm: [f64; 3],
     pub(crate) results: Vec<ColumnResult>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct ColumnResult {
     /// Name with its unit.
     pub(crate) name: &'static str,

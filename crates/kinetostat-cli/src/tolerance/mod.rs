@@ -30,6 +30,7 @@ use crate::tolerance::arguments::{Asked, ToleranceArgs};
 use crate::ui::csv_table::{cell, written};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::progress::Progress;
+use crate::ui::result_form::ResultForm;
 use crate::ui::{json, threads};
 
 impl From<TaskError> for Failure {
@@ -41,6 +42,10 @@ impl From<TaskError> for Failure {
         }
     }
 }
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] =
+    &[ResultForm::of::<ToleranceAnswer>("scatter of results")];
 
 pub(crate) fn run(args: &ToleranceArgs) -> Answer<()> {
     let (model, path) = InputFiles::default().model(&args.model, Path::new(""))?;

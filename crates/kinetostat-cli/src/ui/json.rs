@@ -2,13 +2,15 @@
 
 use std::io::{self, Write};
 
+use schemars::JsonSchema;
+use serde::Serialize;
 use serde_json::ser::{Formatter, PrettyFormatter, Serializer};
 
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::screen::{self, Stream};
 
 /// A result as JSON with a final newline.
-pub(crate) fn json<T: serde::Serialize>(value: &T) -> Answer<String> {
+pub(crate) fn json<T: Serialize + JsonSchema>(value: &T) -> Answer<String> {
     let mut bytes = Vec::new();
     let mut serializer = Serializer::with_formatter(&mut bytes, UnsignedZero::default());
     value.serialize(&mut serializer).map_err(|error| {
@@ -45,7 +47,7 @@ impl Formatter for UnsignedZero {
 }
 
 /// The text of an answer; with `as_json` the answer itself on the standard output, and the text beside it.
-pub(crate) fn print_answer<T: serde::Serialize>(
+pub(crate) fn print_answer<T: Serialize + JsonSchema>(
     text: &str,
     answer: &T,
     as_json: bool,

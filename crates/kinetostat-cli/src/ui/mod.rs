@@ -15,6 +15,7 @@ pub(crate) mod language;
 pub(crate) mod layout;
 pub(crate) mod numbers;
 pub(crate) mod progress;
+pub(crate) mod result_form;
 pub(crate) mod safe_text;
 pub(crate) mod screen;
 pub(crate) mod spelling;

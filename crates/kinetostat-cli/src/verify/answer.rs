@@ -4,6 +4,7 @@ use kinetostat_machining::{
     Assessment, FeatureResult, FileRead, FlatProgram, MissedTolerance, PointResult, Verified,
     Warning, WarningCode, farthest_off,
 };
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::verify::other_language::SPINDLE;
@@ -11,7 +12,7 @@ use crate::verify::other_word::OtherWord;
 use crate::verify::tilted::Tilted;
 
 /// The answer of `verify`: lengths in mm, lines of the original and of the program.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub(crate) struct VerifyAnswer {
     pub(crate) schema: u32,
     pub(crate) kinetostat_version: &'static str,

@@ -37,12 +37,18 @@ use crate::program::report::refuse_doubtful;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 use crate::ui::language::LanguageWord;
+use crate::ui::result_form::ResultForm;
 use crate::verify::answer::VerifyAnswer;
 use crate::verify::arguments::VerifyArgs;
 use crate::verify::other_language::{fitting, language, read_as_made, template};
 use crate::verify::solved::{Solved, solved};
 use crate::verify::tilted::Tilted;
 use crate::verify::written::ClaimedFiles;
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<VerifyAnswer>(
+    "a compensated program verified",
+)];
 
 pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
     let files = InputFiles::default();

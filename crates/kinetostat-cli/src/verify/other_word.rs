@@ -1,10 +1,11 @@
 //! Difference in a command of the two programs.
 
 use kinetostat_machining::{Condition, OtherCondition};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A word or a statement that one of both programs has and the other does not, or has otherwise.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub(crate) struct OtherWord {
     pub(crate) word: String,
     /// Line of the program; none where only the original has it.
@@ -20,7 +21,7 @@ pub(crate) struct OtherWord {
 }
 
 /// Kind of difference from the original.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum FaultKind {
     Frame,

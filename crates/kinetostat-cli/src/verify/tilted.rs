@@ -2,10 +2,11 @@
 
 use kinetostat::Directions;
 use kinetostat_machining::{PointResult, Turned, number::largest};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The place at which the tool is tilted most, where that is more than is allowed.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub(crate) struct Tilted {
     /// Lines of the program and of the original.
     pub(crate) line: usize,

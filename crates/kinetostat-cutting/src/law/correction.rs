@@ -1,12 +1,13 @@
 //! Correction factors of [R 2.1], [R Table 2.1]: what makes the force another than that of the reference test.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{CutErrorKind, Result, within};
 use crate::law::force_law::{EdgeForce, ForceLaw};
 
 /// Material of the edge [R Table 2.1].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CuttingMaterial {
     /// High-speed steel: 1.05.
@@ -19,7 +20,7 @@ pub enum CuttingMaterial {
 }
 
 /// Coolant of the cut [R Table 2.1].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Coolant {
     /// Dry: 1.
@@ -32,7 +33,7 @@ pub enum Coolant {
 }
 
 /// Row of the rake factor [R Table 2.1].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RakeReference {
     /// `1.09 - 0.012 rake` (degrees): steel and other long chips.
@@ -46,7 +47,7 @@ pub enum RakeReference {
 ///
 /// The default changes nothing: coefficients that were measured in milling hold as they are. Each field that is given
 /// multiplies. The thickness of the chip is in the law itself.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Correction {
     /// `K_PRO`: 1.2 to 1.4 for milling with coefficients of turning tests.

@@ -1,5 +1,6 @@
 //! The exponential law: a force of the edge that comes with the chip, `f = K_c h + K_e (1 - exp(-h/h_e))`.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{CutErrorKind, Result, within};
@@ -8,7 +9,7 @@ use crate::law::linear::Linear;
 
 /// `f = K_c h + K_e (1 - exp(-h/h_e))`: the linear law for thick chips, and no force without a chip (Endres and Loo, "Modeling
 /// cutting process nonlinearity for stability analysis", 2002).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Exponential {
     /// `K_c`: tangential, radial, axial, N/mm^2.

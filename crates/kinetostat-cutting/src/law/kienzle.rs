@@ -1,12 +1,13 @@
 //! Kienzle's law: `f = k_11 h^(1 - m)` [R 2.2].
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{CutErrorKind, Result, within};
 use crate::law::force_law::{EdgeForce, ForceLaw};
 
 /// `f = k_11 h^(1 - m)`: the thinner the chip, the more each mm^2 of it costs [R 2.2].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Kienzle {
     /// `k_11`, specific force of a chip of 1 mm by 1 mm: tangential (`k_c1.1`), radial, axial, N/mm^2.

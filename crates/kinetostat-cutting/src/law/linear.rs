@@ -1,12 +1,13 @@
 //! The linear law with a force of the edge: `f = K_c h + K_e`.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{CutErrorKind, Result, within};
 use crate::law::force_law::{EdgeForce, ForceLaw};
 
 /// `f = K_c h + K_e`: the chip costs its thickness, and the edge rubs with any chip.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Linear {
     /// `K_c`: tangential, radial, axial, N/mm^2.

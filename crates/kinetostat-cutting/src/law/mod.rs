@@ -13,6 +13,7 @@ mod worst_case;
 
 use std::sync::Arc;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Result;
@@ -26,7 +27,7 @@ pub use rational::Rational;
 pub use worst_case::{force_as_printed, largest_force};
 
 /// A law with its coefficients.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Law {
     /// `f = K_c h + K_e`.

@@ -1,5 +1,6 @@
 //! The rational law of the report: `f = (a_1 h + a_2 h^2)/(1 + a_3 h)` [R 2.3].
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{CutErrorKind, Result, within};
@@ -8,7 +9,7 @@ use crate::law::force_law::{EdgeForce, ForceLaw};
 /// `f = (a_1 h + a_2 h^2)/(1 + a_3 h)` per length of edge [R 2.3]: of slope `a_1` for thin chips and `a_2/a_3` for thick ones.
 ///
 /// The report calls it fractal; it is a rational (fractional) expression (errata of notation).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rational {
     /// `a_1`: tangential, radial, axial, N/mm^2.

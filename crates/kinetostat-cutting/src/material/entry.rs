@@ -1,11 +1,12 @@
 //! A material: what its file says of it.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::law::{EdgeForce, ForceLaw, Law, RakeReference};
 
 /// Family of materials.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Group {
@@ -47,7 +48,7 @@ impl Group {
 }
 
 /// The kind of test in which coefficients were measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Process {
     /// A lathe: one edge that never leaves the cut.
@@ -57,7 +58,7 @@ pub enum Process {
 }
 
 /// The test in which coefficients were measured.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MeasuredIn {
     /// Turning or milling.

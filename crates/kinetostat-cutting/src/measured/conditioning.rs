@@ -1,5 +1,6 @@
 //! Outliers, drift and ripple, in this order.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{CutError, CutErrorKind, Result};
@@ -17,7 +18,7 @@ const MOST_OUTLIERS: f64 = 0.01;
 const MOST_NAMED: usize = 1000;
 
 /// Treatment of outliers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum OutlierTreatment {
     /// Each is replaced by the median of the rows around it.

@@ -1,5 +1,6 @@
 //! Drift of a dynamometer: what it shows while the tool is in air.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{CutError, CutErrorKind, Result};
@@ -7,7 +8,7 @@ use crate::measured::log::{CHANNELS, ForceLog};
 use crate::number::larger;
 
 /// Model of the drift between stretches of air.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DriftModel {
     /// One straight line through all rows in air, by least squares.

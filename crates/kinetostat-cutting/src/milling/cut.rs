@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::engagement::Engagement;
@@ -11,7 +12,7 @@ use crate::milling::feed::Feed;
 use crate::tool::Tool;
 
 /// Sense of rotation of the spindle, seen from it down to the tool.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rotation {
     /// M3.

@@ -23,6 +23,7 @@ mod table;
 
 use std::f64::consts::PI;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::engagement::{Contact, Edge, Side};
@@ -151,7 +152,7 @@ impl<L: ForceLaw + ?Sized> Milling<'_, L> {
 }
 
 /// A wall that the tool leaves, parallel to the feed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Wall {
     /// Left of the feed.

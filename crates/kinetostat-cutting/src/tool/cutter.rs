@@ -2,12 +2,13 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{CutErrorKind, Result, within};
 
 /// Envelope of the cutting edges.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
     /// A cylinder with a flat end.
@@ -46,7 +47,7 @@ impl Shape {
 }
 
 /// The axis of the teeth lies beside the axis of rotation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct RunOut {
     /// Distance of the two axes, mm.
     pub offset_mm: f64,

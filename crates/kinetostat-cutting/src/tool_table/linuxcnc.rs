@@ -4,12 +4,13 @@
 //! diameter (its sign has no meaning for the size), I J Q angles and orientation of a lathe tool. Lengths are in the units of
 //! the machine. A line that begins with `;` is a remark.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{CutError, CutErrorKind, Result, within};
 
 /// Units of the machine, in which `tool.tbl` counts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MachineUnit {
     /// `LINEAR_UNITS = mm`.

@@ -15,7 +15,7 @@ use crate::linear::LinearDynamics;
 use crate::mass::{MassKind, MassPart};
 
 /// The rotor of a drive.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema, serde::Deserialize)]
 pub struct Rotor {
     /// Name of the joint: its coordinate, `limb.joint` where there are several limbs.
     pub joint: String,

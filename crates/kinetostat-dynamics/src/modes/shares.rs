@@ -1,13 +1,14 @@
 //! Shares of bodies in the kinetic energy and of springs in the elastic energy of a mode.
 
 use nalgebra::DVector;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::linear::LinearDynamics;
 use crate::modes::mode::Mode;
 
 /// A part's share of the energy of a mode.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct EnergyShare {
     /// Name of the body, link, platform, joint or spring.
     pub name: String,

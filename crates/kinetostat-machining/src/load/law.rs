@@ -2,6 +2,7 @@
 
 use kinetostat::{Mechanism, Pose, Wrench};
 use kinetostat_program::Path;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::cut::origin::ForceOrigin;
@@ -55,7 +56,7 @@ pub enum CuttingLoad {
 /// A step is written so that the tool stays at its place on the part while the load turns. That holds
 /// only if the load turns as evenly as the step is made. The bytes written are the same for both readings:
 /// no program can correct a load that turns at once.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CornerLoad {
     /// The load turns uniformly from the one before to the one after while the tool steps.

@@ -2,6 +2,7 @@
 
 use kinetostat::number::larger;
 use kinetostat_program::Path;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::profile::limited::Begins;
@@ -36,7 +37,7 @@ pub(crate) struct ShortFeed {
 }
 
 /// Place at which a stated load begins to act.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum LoadBegins {
@@ -48,7 +49,7 @@ pub enum LoadBegins {
 }
 
 /// Maximum length of path over which a stated load comes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct LoadRamp {
     /// Place at which it begins to act; with several loads [`LoadBegins::AfterRapid`] if one of them begins so.
     pub begins: LoadBegins,

@@ -1,9 +1,10 @@
 //! Assessment of a run: its level, and the assumptions of its figures, ranked by what each can cost.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Level of a run, from good to bad.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Level {
     /// The written program keeps its tolerance, whichever of the stated assumptions fails.
@@ -20,7 +21,7 @@ pub enum Level {
 }
 
 /// Kind of an assumption. Kinds may be added.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum AssumptionKind {
@@ -47,7 +48,7 @@ pub enum AssumptionKind {
 }
 
 /// An assumption on which the figures of a run rest.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct Assumption {
     /// Kind of the assumption.
     pub kind: AssumptionKind,
@@ -61,7 +62,7 @@ pub struct Assumption {
 }
 
 /// Level of a run and the assumptions behind it; made once, and shown by the terminal, reports and JSON.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct Assessment {
     /// Level of the assessment.

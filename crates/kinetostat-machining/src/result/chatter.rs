@@ -1,12 +1,13 @@
 //! Chatter of a program, and forced vibration by its teeth where it does not chatter. Plain data, units in the names; the
 //! crate `kinetostat-analysis` finds it.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::number::{Rounding, significant};
 
 /// A place in the cut that was judged for those like it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct ChatterPlace {
     /// Line of the program, from 1.
     pub line: usize,
@@ -43,7 +44,7 @@ pub struct ChatterPlace {
 }
 
 /// Lines in a row that chatter, and what would not.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct ChatterLines {
     /// First and last line, from 1.
     pub lines: [usize; 2],
@@ -70,7 +71,7 @@ pub struct ChatterLines {
 }
 
 /// Chatter of a program.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct ChatterResult {
     /// Damping of the machine, in words.
     pub damping: String,

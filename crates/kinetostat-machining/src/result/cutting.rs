@@ -1,12 +1,13 @@
 //! Engagement, force, torque and power of the cut along a path, and their largest values. Plain data, units in the
 //! names.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::result::point::PointKind;
 
 /// A place of a path with what the cut asks there; nothing acts at the end of a rapid.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct CutPlace {
     /// Line of the program, from 1.
@@ -79,7 +80,7 @@ impl CutPlace {
 }
 
 /// Figures of the cut along a path.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct CuttingResult {
     /// Half width of the band in which the forces lie, percent of them.

@@ -1,6 +1,7 @@
 //! Features of a part: ranges of lines with a name and a tolerance of their own, and how a run stands to them.
 
 use kinetostat::number::{against, largest_length, mean_length};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::result::point::{PointKind, PointResult, size};
@@ -17,7 +18,7 @@ pub struct Feature {
 }
 
 /// Result of a run for a feature.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct FeatureResult {
     /// Name of the feature.

@@ -1,5 +1,6 @@
 //! Errors for a force of the cut larger or smaller than its coefficients say.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::number::{Rounding, counted};
@@ -7,7 +8,7 @@ use crate::number::{largest_length, significant};
 
 /// The errors if the force of the cut is larger or smaller by the spread of its coefficients, and all else is as it was:
 /// where it was compensated, the program is the one that was written for the force as computed.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct ForceBand {
     /// Relative deviation of the force, percent.

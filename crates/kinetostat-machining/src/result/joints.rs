@@ -3,12 +3,13 @@
 
 use std::fmt;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::number::counted;
 
 /// An end of a joint's range.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LimitEnd {
     /// The smallest command that is allowed.
@@ -33,7 +34,7 @@ impl LimitEnd {
 }
 
 /// The joint of a machine that is nearest to one of its limits.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct NearestLimit {
     /// Index, from 0, in the order of `question.actuators`.
@@ -46,7 +47,7 @@ pub struct NearestLimit {
 }
 
 /// The drive of a machine that carries the largest share of its rating.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct MostLoaded {
     /// Index, from 0, in the order of `question.actuators`.
@@ -56,7 +57,7 @@ pub struct MostLoaded {
 }
 
 /// Side of axis 1 on which an arm reaches.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shoulder {
     /// The centre of the wrist is on the side of axis 1 on which axis 2 is (of an arm whose axis 2 crosses axis 1: on the side
@@ -67,7 +68,7 @@ pub enum Shoulder {
 }
 
 /// Elbow flag of an arm.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Elbow {
     /// The elbow is above the line from axis 2 to the centre of the wrist when the arm reaches to the front.
@@ -77,7 +78,7 @@ pub enum Elbow {
 }
 
 /// Side to which an arm bends its wrist.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Wrist {
     /// About axis 5 to the side to which it is bent at the model's home (of a wrist that is straight there: the positive one).
@@ -103,7 +104,7 @@ pub enum Wrist {
 /// assert!(ArmConfiguration::of(f64::NAN, 70.0, -12.5).is_none());
 /// # Ok::<(), &str>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct ArmConfiguration {
     /// Side of axis 1 on which it reaches.
@@ -178,7 +179,7 @@ impl fmt::Display for ArmConfiguration {
 }
 
 /// Place at which a joint comes nearest to one of its limits.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct LimitPlace {
     /// Line of the input program, from 1.
@@ -191,7 +192,7 @@ pub struct LimitPlace {
 }
 
 /// Place of the largest share of a drive's rating.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct RatingPlace {
     /// Line of the input program, from 1.
@@ -205,7 +206,7 @@ pub struct RatingPlace {
 
 /// Two neighbouring places of a feed motion between which the arm changes its configuration, or turns a joint much farther than it turns
 /// its tool: on the way it passes a singular posture, or stands beside one.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct PostureChange {
     /// Line of the input program of the place before, from 1.
@@ -226,7 +227,7 @@ pub struct PostureChange {
 
 /// Remedy for an arm that cannot follow a program in one posture: a constant turn of the tool about its own axis (which does not matter
 /// for a round tool) along the whole program. It is looked for in steps of 5 deg.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct WayOut {
     /// The smallest turn, right-handed about z of the tool, with which every place that was looked at is reached inside all limits, in
@@ -262,7 +263,7 @@ impl WayOut {
 }
 
 /// Figures of joints and drives along a program.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct JointsResult {
     /// Smallest and largest joint value of every actuator on cutting moves (everywhere if none cuts), mm or deg.

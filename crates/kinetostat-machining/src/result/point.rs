@@ -2,12 +2,13 @@
 
 use kinetostat::chain::FoundBy;
 use nalgebra::{Isometry3, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::result::joints::{ArmConfiguration, MostLoaded, NearestLimit};
 
 /// Kind of a point.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PointKind {
     /// Point on a cutting move.
@@ -37,7 +38,7 @@ impl PointKind {
 }
 
 /// One point of the path.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct PointResult {
     /// Line of the input program, from 1.

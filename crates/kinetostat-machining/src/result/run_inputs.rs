@@ -1,5 +1,6 @@
 //! The inputs of a run, as its result repeats them.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::flat_program::FlatProgram;
@@ -7,7 +8,7 @@ use crate::load::law::CornerLoad;
 use crate::weight_correction::WeightCorrection;
 
 /// Model, program, load and tolerances of a run, in words and numbers.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct RunInputs {
     /// Name of the model.
@@ -86,7 +87,7 @@ pub struct RunInputs {
 }
 
 /// Assumed load on a tool while the written program steps at sharp corners.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 pub struct ToolAtCorners {
     /// Number in the program's T words.
     pub number: u32,
@@ -95,7 +96,7 @@ pub struct ToolAtCorners {
 }
 
 /// A file that a run was made from.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 pub struct FileRead {
     /// Kind of the file: `program`, `model`, `job`.
     pub what: String,
@@ -106,7 +107,7 @@ pub struct FileRead {
 }
 
 /// One actuator of the per-actuator lists.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct ActuatorColumn {
     /// Name of the actuator, as in [`kinetostat::Mechanism::actuator_names`].
     pub name: String,

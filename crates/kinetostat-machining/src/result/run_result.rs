@@ -2,6 +2,7 @@
 //! `points.csv` lists.
 
 use kinetostat_program::{Accounting, WriteOptions};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::near::NearSingular;
@@ -22,7 +23,7 @@ use crate::warning::Warning;
 pub const RESULT_SCHEMA: u32 = 2;
 
 /// Result of a run over a program.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct RunResult {
     /// [`RESULT_SCHEMA`] of the program that made it.
@@ -126,7 +127,7 @@ fn sum_of_bounds(path_mm: f64, (chord_mm, arcs): (f64, usize), rounding_mm: f64)
 }
 
 /// The place of a program that is nearest to a singular posture.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct NearSingularPlace {
     /// Line of the input program, from 1.
     pub line: usize,

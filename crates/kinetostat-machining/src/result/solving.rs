@@ -3,10 +3,11 @@
 use kinetostat::Mechanism;
 use kinetostat::batch::Batch;
 use kinetostat::chain::FoundBy;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Number of places found by one method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct FoundCount {
     /// Method, not [`FoundBy::Directly`].
@@ -17,7 +18,7 @@ pub struct FoundCount {
 
 /// Methods by which the equilibria of many places were found, if not by the usual one: directly, and by kernels that
 /// take many places at once.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct Solving {
     /// Places that were not found directly.

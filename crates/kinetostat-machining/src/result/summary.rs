@@ -4,10 +4,11 @@ use crate::load::ramp_findings::LoadRamp;
 use crate::result::largest_change::LargestChange;
 use crate::result::solving::Solving;
 use kinetostat_program::ShortBlocksOfLine;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Figures of a run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct Summary {
     /// Points of the path that were solved.

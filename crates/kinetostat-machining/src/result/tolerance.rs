@@ -1,6 +1,7 @@
 //! Verdict on the tolerance of a written program: corrected with a model or with a table, by one rule and in one wording.
 
 use kinetostat_program::{Accounting, Farthest};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::number::{against, largest_length, length_setting};
@@ -77,7 +78,7 @@ impl ToleranceResult {
 }
 
 /// Verdict on the tolerance of a written program.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct ToleranceResult {
     /// [`RunResult::allowed_mm`](crate::RunResult::allowed_mm).
@@ -89,7 +90,7 @@ pub struct ToleranceResult {
 }
 
 /// The place where a written program is farthest beyond its tolerance.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct MissedTolerance {
     /// Line of the input program, from 1.
     pub line: usize,

@@ -1,11 +1,12 @@
 //! Scatter of the errors of a program for an uncertain machine and force.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::number::{counted, largest_length, length_plus_minus};
 
 /// A number that is uncertain, as stated.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct UncertainNumber {
     /// Path in the model, or part of the load.
     pub name: String,
@@ -20,7 +21,7 @@ pub struct UncertainNumber {
 }
 
 /// The largest error along the program, over many machines, mm.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct ScatteredError {
     /// Error of the machine as drawn, at the same places.
     pub as_drawn_mm: f64,
@@ -43,7 +44,7 @@ pub struct ScatteredError {
 }
 
 /// A place of the program, with the errors of nineteen in twenty machines at least, of half of them, and of one in twenty, mm.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct BandPlace {
     /// Line of the input program, from 1.
     pub line: usize,
@@ -57,7 +58,7 @@ pub struct BandPlace {
 
 /// Scatter of the errors of a program: machines drawn at random, commanded by the program as it is and by the one that was written
 /// for the machine as drawn.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct UncertaintyBand {
     /// File that states the uncertain numbers.

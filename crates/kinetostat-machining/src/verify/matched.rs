@@ -1,9 +1,10 @@
 //! Match of a program with the original that it is verified against.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Match of a program with its original.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct Matched {
     /// Largest distance of the program from the original as the model compensates it, mm.
@@ -30,7 +31,7 @@ pub struct Matched {
 }
 
 /// An orientation that the original does not state there.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct Turned {
     /// Line of the program.
     pub line: usize,
@@ -41,7 +42,7 @@ pub struct Turned {
 }
 
 /// Kind of a difference between cuts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Condition {
     /// F, or how it counts.
@@ -53,7 +54,7 @@ pub enum Condition {
 }
 
 /// Moves that the original makes otherwise than where they go.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct OtherCondition {
     /// Kind of the difference.
     pub condition: Condition,
@@ -68,7 +69,7 @@ pub struct OtherCondition {
 }
 
 /// A rapid of a program that goes elsewhere than that of the original.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct RapidElsewhere {
     /// Line of the program.
     pub line: usize,
@@ -81,7 +82,7 @@ pub struct RapidElsewhere {
 }
 
 /// A move at feed of a program that the original does not make.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct ExtraCut {
     /// Line of the program.
     pub line: usize,
@@ -90,7 +91,7 @@ pub struct ExtraCut {
 }
 
 /// A part of the original that a program does not cut.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct Uncut {
     /// First and last line of it in the original.
     pub lines: [usize; 2],

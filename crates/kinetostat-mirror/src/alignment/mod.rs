@@ -16,12 +16,13 @@
 
 use kinetostat_program::{Foot, NominalPath, WhyLeftOut, in_order};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::points::MeasuredPoint;
 
 /// The rule by which points are given to places of the path.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Alignment {
     /// The nearest place, where only one stretch of the path comes by.
@@ -32,7 +33,7 @@ pub enum Alignment {
 }
 
 /// A point with its place.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct AlignedPoint {
     /// Row of the measurement, from 1.
     pub row: usize,
@@ -43,15 +44,17 @@ pub struct AlignedPoint {
     /// Pass of the tool.
     pub pass: usize,
     /// Direction of the path.
+    #[schemars(with = "[f64; 3]")]
     pub tangent: Vector3<f64>,
     /// Deviation of the point from the path, across the path, mm.
+    #[schemars(with = "[f64; 3]")]
     pub deviation_mm: Vector3<f64>,
     /// Weight in means.
     pub weight: f64,
 }
 
 /// A point without a place.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct LeftOut {
     /// Row of the measurement, from 1.
     pub row: usize,

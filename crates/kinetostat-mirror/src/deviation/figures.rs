@@ -1,5 +1,6 @@
 //! Sizes of the deviations of a measurement.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::alignment::AlignedPoint;
@@ -8,7 +9,7 @@ use crate::deviation::stations::Stations;
 use crate::number::{OF_TWO_DIRECTIONS, larger, median};
 
 /// Sizes of deviations.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct DeviationFigures {
     /// Points that count.
     pub points: usize,

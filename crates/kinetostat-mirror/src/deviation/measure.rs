@@ -15,6 +15,7 @@
 
 use kinetostat_program::{NominalPath, WhyLeftOut};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::alignment::{AlignedPoint, Alignment, LeftOut, align};
@@ -32,7 +33,7 @@ use crate::registration::{Motion, Registration, RegistrationOptions, of_the_same
 const MOST_BEYOND: f64 = 0.1;
 
 /// Motion that brings measured points into the frame of the program before they are compared with its path.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Register {
     /// No motion: the points are in the frame of the program, and a shift of the whole is a deviation.
@@ -71,7 +72,7 @@ impl Register {
 }
 
 /// Settings by which points become deviations; equal for all trials of a program.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct MeasureSettings {
     /// Standard deviation of the kernel along the path, mm.
     pub smoothing_mm: f64,

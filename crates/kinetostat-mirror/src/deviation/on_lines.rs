@@ -1,5 +1,6 @@
 //! Deviations on a feature of the part: on the feed moves of some lines of the program.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::deviation::measure::Measurement;
@@ -7,7 +8,7 @@ use crate::number::larger;
 use kinetostat_program::NominalPath;
 
 /// Deviations on lines of the program.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct OnLines {
     /// Points that count there.
     pub points: usize,

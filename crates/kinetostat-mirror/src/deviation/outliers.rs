@@ -14,6 +14,7 @@
 //! the direction across it turns too, and a line is off by up to half that angle times the deviation.
 
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::alignment::AlignedPoint;
@@ -34,7 +35,7 @@ const SAME_DIRECTION: f64 = 0.939_692_620_785_908_4;
 const FEWEST: usize = 4;
 
 /// A point that was left out.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Outlier {
     /// Row of the measurement, from 1.
     pub row: usize,
@@ -47,6 +48,7 @@ pub struct Outlier {
     /// Allowed distance, mm.
     pub allowed_mm: f64,
     /// Deviation of the point, mm.
+    #[schemars(with = "[f64; 3]")]
     pub deviation_mm: Vector3<f64>,
 }
 

@@ -1,5 +1,6 @@
 //! Parts of the path that measured points do not determine.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::alignment::AlignedPoint;
@@ -13,7 +14,7 @@ const KNOWN: f64 = 3.0;
 const PLACES: usize = 32;
 
 /// A part of the path of which the points say nothing, or not enough.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum Unseen {
     /// A whole pass without a point: it is written as it was.

@@ -36,7 +36,7 @@ const APART: f64 = 0.01;
 const IN_ORDER: f64 = 0.05;
 
 /// Criterion by which the motion was chosen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ToldBy {
     /// The points lay about where the path is.

@@ -21,6 +21,7 @@
 //!   `0 < rho <= 2 (1 - |D|) / (1 + |D|)^2`.
 
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Bound on the relaxation below which the error never rises, for a departure of at most this size, symmetric; `None` if it is
@@ -44,7 +45,7 @@ pub fn bound_on_relaxation(departure: f64) -> Option<f64> {
 /// kernel lets through counts (with all of it the response would seem smaller, and the bound larger, than they are). The residual of
 /// `a - a'` is the variation of `D` along the path, and scatter; as a share of `rho S a` it is `spread`, and the bound is that of a
 /// departure of `|d| + spread`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct Convergence {
     /// Share of the smoothed error of the trial before that is left.
     pub factor: f64,

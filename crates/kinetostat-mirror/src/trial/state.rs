@@ -15,6 +15,7 @@
 
 use kinetostat_program::NominalPath;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::deviation::{MeasureSettings, Measurement, PieceMean, Stations, piece_means};
@@ -31,7 +32,7 @@ const SCHEMA: u32 = 1;
 const NOTHING_MM: f64 = 1e-6;
 
 /// Outcome of a trial.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     /// Go on with the correction.

@@ -1,6 +1,7 @@
 //! Selection of the measurements that a trial takes.
 
 use kinetostat_program::WhyLeftOut;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::alignment::LeftOut;
@@ -120,7 +121,7 @@ fn what_to_do(without: &[LeftOut]) -> &'static str {
 }
 
 /// A file of measured points.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 pub struct MeasuredFile {
     /// Name of the file.
     pub name: String,
@@ -134,7 +135,7 @@ fn yes() -> bool {
 }
 
 /// Record of a trial: the measurement of the program with the correction before, and its outcome.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct Trial {
     /// Number from 1; trial 1 is the program without a correction by measurement.
     pub number: usize,

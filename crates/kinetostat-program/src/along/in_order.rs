@@ -1,6 +1,7 @@
 //! Points in their order along the path.
 
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::along::foot::Foot;
@@ -113,7 +114,7 @@ fn step(along_mm: f64, way_mm: f64, window_mm: f64) -> Option<f64> {
 }
 
 /// Reason for which a point has no place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WhyLeftOut {
     /// The path does not come within the window.

@@ -231,7 +231,7 @@ pub struct Path {
 }
 
 /// Something the user should know; not an error.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 pub struct Warning {
     /// Line of the input program, counted from 1.
     pub line: usize,

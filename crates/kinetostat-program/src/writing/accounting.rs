@@ -2,12 +2,13 @@
 
 use std::collections::VecDeque;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::path::moves::{Feed, FeedMode, Move, Warning};
 
 /// Summary of the changes to a program. All lengths in mm.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, JsonSchema)]
 pub struct Accounting {
     /// Blocks (lines with words) of the input; `blocks_carried + blocks_corrected`.
     pub blocks_in: usize,
@@ -96,7 +97,7 @@ pub struct Accounting {
 
 /// Blocks of the output that are shorter than a controller takes ([`crate::WriteOptions::min_block_mm`],
 /// [`crate::WriteOptions::max_blocks_per_s`]), of one line of the input.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct ShortBlocksOfLine {
     /// Line of the input, counted from 1.

@@ -15,6 +15,7 @@ use crate::spatial::{MotionKind, Twist};
 /// Kind of a direction of the end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum DirectionKind {
     /// Moves without force.
@@ -30,6 +31,7 @@ pub enum DirectionKind {
 /// A joint or spring that moves when the end moves in a direction.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Share {
     /// Name of the coordinate; in a mechanism `limb: coordinate`.
     pub name: String,
@@ -46,6 +48,7 @@ pub struct Share {
 /// A principal direction of the (symmetric part of the) stiffness.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Direction {
     /// Free, finite, negative or rigid.

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 /// Method by which an equilibrium was found. Where several equilibria exist, it tells which of them this is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum FoundBy {

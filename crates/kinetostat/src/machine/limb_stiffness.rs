@@ -19,6 +19,7 @@ use crate::spatial::{Pose, Wrench, hat};
 /// Motion of a passive joint or spring per motion of its limb's end.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct JointSensitivity {
     /// Name of the coordinate in its chain.
     pub name: String,
@@ -29,6 +30,7 @@ pub struct JointSensitivity {
 /// Tangent stiffness of a limb at its end, base axes.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct LimbStiffness {
     /// Name of the limb.

@@ -27,6 +27,7 @@ const NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(transparent))]
 pub struct Directions([bool; 6]);
 

@@ -48,7 +48,8 @@ pub fn hat(a: &Vector3<f64>) -> Matrix3<f64> {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
-pub struct Twist(pub Vector6<f64>);
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Twist(#[cfg_attr(feature = "schema", schemars(with = "[f64; 6]"))] pub Vector6<f64>);
 
 /// Load on a body, `[f; m]`: force (N) and moment (N m) about the reference point, both in base
 /// axes, applied by the environment to the body.
@@ -290,6 +291,7 @@ pub(crate) fn on_screw(from: &Pose, to: &Pose, share: f64) -> Pose {
 /// Translation along, or rotation about, an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum MotionKind {
     /// Translation, m.

@@ -11,6 +11,7 @@ use kinetostat_machining::{
     NEAR_SINGULAR, NearSingular, Warning, WarningCode, folds, natural_length, near_singular,
 };
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::machine::displacement_warnings::snaps;
@@ -19,7 +20,7 @@ use crate::ui::layout::item;
 use crate::ui::numbers::{fixed, load_triple, number, short, triple};
 
 /// Findings about the modelling assumptions at home.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct AssumptionsFinding {
     /// Mean over the limbs, mm: deflections are compared with it.
     pub(crate) natural_length_mm: f64,

@@ -4,6 +4,7 @@ use kinetostat_machining::number::apart;
 use kinetostat_machining::{Warning, WarningCode};
 use kinetostat_model::Model;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::check::model::assumptions::AssumptionsFinding;
@@ -16,7 +17,7 @@ use crate::machine::unstable_joints::load_names;
 use crate::ui::numbers::pose_text;
 
 /// Findings, stable names with units.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Findings {
     pub(crate) schema: u32,
     pub(crate) kinetostat_version: &'static str,
@@ -42,7 +43,7 @@ pub(crate) struct Findings {
     pub(crate) warnings: Vec<Warning>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct PlatformFinding {
     pub(crate) name: String,
     pub(crate) home_position_mm: [f64; 3],

@@ -5,6 +5,7 @@ use kinetostat::{Mechanism, Pose, PostureRequest, Twist};
 use kinetostat_analysis::joint_motion::{actuator_twist, point_on_axis};
 use kinetostat_model::Model;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::machine::units::unit;
@@ -16,7 +17,7 @@ use crate::ui::numbers::{fixed, short, triple};
 const MOST: usize = 40;
 
 /// Frames and directions, stable names with units.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Frames {
     tool_frame: String,
     home_position_mm: [f64; 3],
@@ -36,7 +37,7 @@ pub(crate) struct Frames {
 }
 
 /// The tool's motion by a small positive motion of one joint, the others held, at home.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct JointDirection {
     name: String,
     unit: &'static str,
@@ -51,7 +52,7 @@ struct JointDirection {
 }
 
 /// An axis of the controller by the model's joints.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct ShownAxis {
     name: String,
     unit: &'static str,

@@ -4,6 +4,7 @@ use kinetostat::number::larger;
 use kinetostat::{Mechanism, MechanismEquilibrium, Posture, Wrench};
 use kinetostat_analysis::limb_motions::{directions_held_by_limb, redundant_actuators};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::check::model::assumptions::{AssumptionsFinding, assumptions};
@@ -11,7 +12,7 @@ use crate::check::model::limbs::LimbFinding;
 use crate::machine::principal_directions::{Principal, principal, uneven};
 use crate::machine::unstable_joints::{UnstableJoint, unstable_joints};
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct HomeFinding {
     pub(crate) mobility: usize,
     pub(crate) actuators: usize,

@@ -4,12 +4,13 @@ use kinetostat::number::counted;
 use kinetostat::{MotionKind, model::Role};
 use kinetostat_model::Model;
 use kinetostat_model::schema::{Convention, Element};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::ui::layout::{self, wrapped};
 use crate::ui::numbers::{number, short};
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct LimbFinding {
     pub(crate) name: String,
     pub(crate) from: String,
@@ -30,7 +31,7 @@ pub(crate) struct LimbFinding {
 }
 
 /// An elastic link.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct LinkFinding {
     pub(crate) name: String,
     pub(crate) length_mm: f64,
@@ -41,7 +42,7 @@ pub(crate) struct LinkFinding {
 }
 
 /// A load on a limb or on platforms.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct LoadFinding {
     pub(crate) name: String,
     pub(crate) kind: &'static str,
@@ -49,7 +50,7 @@ pub(crate) struct LoadFinding {
     pub(crate) conservative: bool,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct ActuatorFinding {
     pub(crate) name: String,
     pub(crate) kind: &'static str,

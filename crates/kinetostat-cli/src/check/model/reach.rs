@@ -3,13 +3,14 @@
 use kinetostat::Posture;
 use kinetostat_analysis::reach::{ArmReach, Reach, ReachAlongAxes, ReachError, reach};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::ui::layout::item;
 use crate::ui::numbers::{number, short, triple};
 
 /// Reach of a machine.
-#[derive(Default, Serialize)]
+#[derive(Default, Serialize, JsonSchema)]
 pub(crate) struct ReachFinding {
     /// Farthest the tool's reference point gets from the base's origin, mm: of an arm, and of a machine
     /// that moves only while its tool turns.

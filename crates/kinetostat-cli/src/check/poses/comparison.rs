@@ -10,6 +10,7 @@ use kinetostat_analysis::measured_poses::{
 };
 use kinetostat_model::Model;
 use nalgebra::UnitQuaternion;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::check::poses::pose_row::PoseRow;
@@ -19,7 +20,7 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::{fixed, short, triple};
 
 /// The answer, stable names with units.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct PoseComparison {
     pub(crate) schema: u32,
     pub(crate) kinetostat_version: &'static str,
@@ -39,7 +40,7 @@ pub(crate) struct PoseComparison {
     pub(crate) nearest: Option<Nearest>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct PoseFinding {
     pub(crate) name: String,
     pub(crate) line: usize,
@@ -50,7 +51,7 @@ pub(crate) struct PoseFinding {
     pub(crate) difference_deg: Option<f64>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Nearest {
     pub(crate) in_words: String,
     pub(crate) difference_mm: f64,

@@ -16,7 +16,8 @@ use kinetostat_model::schema::Placement;
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
-use crate::check::poses::comparison::{PoseComparison, axes, compare};
+pub(crate) use crate::check::poses::comparison::PoseComparison;
+use crate::check::poses::comparison::{axes, compare};
 use crate::check::poses::csv_file::from_csv;
 use crate::check::poses::pose_row::{MOST, PoseRow};
 use crate::files::csv_text::with_decimal_points;

@@ -1,12 +1,13 @@
 //! The answer of `force --fit`, stable names with units.
 
 use kinetostat_machining::Warning;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::force::answer::ToolAnswer;
 
 /// Coefficients that fit mean forces best; all forces are those on the tool.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct FitAnswer {
     pub(crate) schema: u32,
     pub(crate) kinetostat_version: &'static str,
@@ -38,7 +39,7 @@ pub(crate) struct FitAnswer {
     pub(crate) lines: Vec<AtFeed>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct FitCut {
     pub(crate) width_mm: f64,
     pub(crate) depth_mm: f64,
@@ -56,7 +57,7 @@ pub(crate) struct FitCut {
     pub(crate) chip_to_mm: f64,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct CoefficientAnswer {
     pub(crate) symbol: &'static str,
     /// Unit of the numbers beside it.
@@ -69,7 +70,7 @@ pub(crate) struct CoefficientAnswer {
 }
 
 /// Goodness of fit of the force along an axis.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct Component {
     pub(crate) axis: &'static str,
     pub(crate) r_squared: Option<f64>,
@@ -80,7 +81,7 @@ pub(crate) struct Component {
 }
 
 /// A row of the file, its forces as those on the tool.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct FitRow {
     pub(crate) feed_mm_per_tooth: f64,
     pub(crate) force_n: [f64; 3],

@@ -3,6 +3,7 @@
 
 pub mod chains;
 pub mod checks;
+mod schemas;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -101,13 +102,13 @@ pub fn command(directory: &Path) -> Command {
     command
 }
 
+/// Runs the command; its JSON must follow the schema that the command publishes.
+#[track_caller]
 pub fn run(directory: &Path, arguments: &[&str]) -> Said {
-    Said::of(
-        command(directory)
-            .args(arguments)
-            .output()
-            .expect("the command starts"),
-    )
+    let output = command(directory).args(arguments).output();
+    let said = Said::of(output.expect("the command starts"));
+    schemas::check_results(directory, arguments, &said.out);
+    said
 }
 
 /// Runs a line of `sh` in which `$K` is the command.
