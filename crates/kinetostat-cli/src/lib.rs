@@ -23,6 +23,7 @@ mod end_condition;
 mod engagement;
 mod equilibria;
 mod expand;
+mod explain;
 mod files;
 mod force;
 mod frf;
@@ -49,6 +50,7 @@ mod ui;
 mod verify;
 mod vibration;
 
+use kinetostat_diagnostic::ErrorCode;
 use std::ffi::OsString;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -59,10 +61,10 @@ use kinetostat_machining::Watch;
 
 use crate::command_line::{Cli, Command, no_number, plain_numbers};
 use crate::files::journal;
-use crate::ui::failure::{self, Answer, Code};
+use crate::ui::failure::{Answer, Code, Failure};
 use crate::ui::given::Given;
 use crate::ui::host::{self, Host};
-use crate::ui::{progress, screen};
+use crate::ui::{json, progress, screen};
 
 /// Entry point of the command as a process of its own.
 ///
@@ -145,29 +147,43 @@ pub fn command() -> clap::Command {
 /// The exit code of a command; `begin` is called when its words are understood.
 fn answer(words: impl Iterator<Item = OsString>, begin: impl FnOnce()) -> u8 {
     let words = plain_numbers(words);
+    let asks_for_json = words.iter().any(|word| word == "--json");
     if let Some(what) = no_number(&words) {
-        screen::complain(&failure::Failure::input(what));
-        return Code::WrongInput as u8;
+        return refused(&Failure::new(ErrorCode::Value, what), asks_for_json);
     }
     let (cli, given) = match parsed(words) {
         Ok(parsed) => parsed,
         Err(error) => {
             screen::complain_of_line(&error);
             // Help and version were requested; everything else is wrong input.
-            return match error.kind() {
-                ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => 0,
-                _ => Code::WrongInput as u8,
-            };
+            if matches!(
+                error.kind(),
+                ErrorKind::DisplayHelp | ErrorKind::DisplayVersion
+            ) {
+                return 0;
+            }
+            if asks_for_json {
+                let text = error.render().to_string();
+                let failure = Failure::new(ErrorCode::CommandLine, text.trim());
+                json::print_errors(&failure);
+            }
+            return Code::WrongInput as u8;
         }
     };
     begin();
     match run(cli.command, &given) {
         Ok(()) => 0,
-        Err(failure) => {
-            screen::complain(&failure);
-            failure.code as u8
-        }
+        Err(failure) => refused(&failure, given.json_on_screen),
     }
+}
+
+/// Reports a failure, with `as_json` also as JSON on the standard output, and returns its exit code.
+fn refused(failure: &Failure, as_json: bool) -> u8 {
+    screen::complain(failure);
+    if as_json {
+        json::print_errors(failure);
+    }
+    failure.code as u8
 }
 
 /// The command of a line, and the options that it gives.
@@ -209,6 +225,7 @@ fn run(command: Command, given: &Given) -> Answer<()> {
         Command::Reproduce(args) => reproduce::run(&args),
         Command::Model(args) => model::run(&args),
         Command::Schema(args) => schema::run(&args),
+        Command::Explain(args) => explain::run(&args),
         Command::Completions(args) => shell::completions(&args, Cli::command()),
         Command::Man(args) => shell::man(&args, Cli::command()),
     }

@@ -1,5 +1,6 @@
 //! Common types of the options of several commands: numbers, vectors, and the exit codes of their help.
 
+use kinetostat_diagnostic::ErrorCode;
 use nalgebra::Vector3;
 
 use crate::ui::failure::{Answer, Failure};
@@ -49,9 +50,10 @@ pub(crate) fn small(text: &str) -> Result<u8, NumberFault> {
 
 pub(crate) fn finite(name: &str, values: &[f64]) -> Answer<()> {
     match values.iter().find(|v| !v.is_finite()) {
-        Some(v) => Err(Failure::input(format!(
-            "{name} holds {v}: finite numbers are needed"
-        ))),
+        Some(v) => Err(Failure::new(
+            ErrorCode::Value,
+            format!("{name} holds {v}: finite numbers are needed"),
+        )),
         None => Ok(()),
     }
 }
@@ -61,6 +63,9 @@ pub(crate) fn vector(name: &str, values: &[f64]) -> Answer<Vector3<f64>> {
     finite(name, values)?;
     match values {
         [x, y, z] => Ok(Vector3::new(*x, *y, *z)),
-        _ => Err(Failure::input(format!("{name} needs three numbers"))),
+        _ => Err(Failure::new(
+            ErrorCode::Value,
+            format!("{name} needs three numbers"),
+        )),
     }
 }

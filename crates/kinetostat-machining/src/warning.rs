@@ -9,7 +9,9 @@ use serde::{Deserialize, Serialize};
 use crate::flat_program::FlatProgram;
 
 /// Kind of a warning: a stable word for programs that read the JSON. Kinds may be added.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, JsonSchema, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, JsonSchema, Deserialize,
+)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum WarningCode {

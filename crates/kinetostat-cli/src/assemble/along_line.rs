@@ -5,6 +5,7 @@ use kinetostat::chain::FoundBy;
 use kinetostat::number::larger;
 use kinetostat::{Mechanism, MechanismEquilibrium, Pose, Posture, PostureRequest, Wrench};
 use kinetostat_analysis::assembled::AssembledMachine;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::number::counted;
 use kinetostat_machining::{Solving, Warning, WarningCode};
 use kinetostat_report::{Plot, PlotLine};
@@ -124,15 +125,17 @@ pub(crate) fn answer(
     let query = &assembly.query;
     let count = args.points.unwrap_or(41);
     if !(2..=MOST_POINTS).contains(&count) {
-        return Err(Failure::input(format!(
-            "--points {count}: a line has 2 to {MOST_POINTS} points"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!("--points {count}: a line has 2 to {MOST_POINTS} points"),
+        ));
     }
     let from = vector("--along", line.get(..3).unwrap_or_default())?;
     let to = vector("--along", line.get(3..).unwrap_or_default())?;
     let length = (to - from).norm();
     if length.max(from.norm()).max(to.norm()) > 1e7 {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Value,
             "--along leads more than 10 km away; coordinates are in mm",
         ));
     }
@@ -253,7 +256,12 @@ pub(crate) fn plot(a: &AlongLine, component: Component) -> Plot {
 
 pub(crate) fn csv(a: &AlongLine) -> Answer<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let failed = |e: csv::Error| Failure::input(format!("the table cannot be written: {e}"));
+    let failed = |e: csv::Error| {
+        Failure::new(
+            ErrorCode::Output,
+            format!("the table cannot be written: {e}"),
+        )
+    };
     let mut header = vec!["distance_mm".to_owned()];
     for name in [
         "",

@@ -1,6 +1,7 @@
 //! The machine of `assemble`: as built, and as drawn.
 
 use kinetostat::Mechanism;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::straight_tool;
 use kinetostat_model::Model;
 use kinetostat_model::schema::{Axis, AxisName, Deviation, Placement};
@@ -47,7 +48,10 @@ pub(crate) fn assembly_query(args: &AssembleArgs) -> Answer<AssemblyQuery> {
 }
 
 fn refused(deviation: &str, reason: &str) -> Failure {
-    Failure::input(format!("--deviation '{deviation}': {reason}"))
+    Failure::new(
+        ErrorCode::Value,
+        format!("--deviation '{deviation}': {reason}"),
+    )
 }
 
 /// `LIMB:AT:WHAT` as deviations of one limb, or of all.

@@ -7,6 +7,7 @@ mod answer;
 pub(crate) mod arguments;
 mod text;
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::marked_as_compensated;
 use kinetostat_report::chatter_svg;
 
@@ -71,7 +72,10 @@ pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
     let as_one = AsOne::new(&progress, "chatter, %", &SHARES);
     let forces = forces_of(&machine, &setting, read.path(), &as_one)?;
     let Some(forces) = &forces else {
-        return Err(Failure::input("the job has no forces of the cut"));
+        return Err(Failure::new(
+            ErrorCode::Missing,
+            "the job has no forces of the cut",
+        ));
     };
     let found = with_task(
         Aim::Analyse,

@@ -1,6 +1,7 @@
 //! `kinetostat check job.toml`: what a job requests, and whether it makes sense. The program is read
 //! and its ends are put into the machine; nothing is solved along it and nothing is written.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat::Mechanism;
@@ -124,10 +125,13 @@ pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
     }
     match found.ends.iter().filter(|e| !e.reached).count() {
         0 => Ok(()),
-        n => Err(Failure::unanswered(format!(
-            "the machine does not reach {n} of the {} ends of the program; see above",
-            found.ends.len()
-        ))),
+        n => Err(Failure::new(
+            ErrorCode::NoAnswer,
+            format!(
+                "the machine does not reach {n} of the {} ends of the program; see above",
+                found.ends.len()
+            ),
+        )),
     }
 }
 

@@ -7,6 +7,7 @@ mod job;
 mod model;
 mod poses;
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -31,7 +32,8 @@ pub(crate) fn run(args: &CheckArgs) -> Answer<()> {
     let file = Path::new(&args.model);
     if FileKind::of_file(file) == Some(FileKind::Job) {
         if args.pose.is_some() || args.force.is_some() {
-            return Err(Failure::input(
+            return Err(Failure::new(
+                ErrorCode::Unused,
                 "--pose and --force check a model, and this is a job file: name its model instead",
             ));
         }

@@ -19,6 +19,7 @@ use crate::dialect::DialectArgs;
 use crate::engagement::arguments::EngagementArgs;
 use crate::equilibria::arguments::EquilibriaArgs;
 use crate::expand::ExpandArgs;
+use crate::explain::ExplainArgs;
 use crate::force::arguments::ForceArgs;
 use crate::frf::arguments::FrfArgs;
 use crate::import::arguments::ImportArgs;
@@ -108,6 +109,7 @@ pub(crate) enum Command {
     Reproduce(ReproduceArgs),
     Model(ModelArgs),
     Schema(SchemaArgs),
+    Explain(ExplainArgs),
     Completions(CompletionsArgs),
     Man(ManArgs),
 }

@@ -6,6 +6,7 @@ mod answer;
 pub(crate) mod arguments;
 mod grid;
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use kinetostat::{Mechanism, Pose, Posture, PostureRequest, Wrench};
@@ -65,7 +66,9 @@ impl Design {
 
     /// Stiffness and shares at a place.
     fn figures(&self, at: Option<Vector3<f64>>) -> Answer<Figures> {
-        let failed = |e: &kinetostat::Error| Failure::unanswered(format!("{}: {e}", self.named));
+        let failed = |e: &kinetostat::Error| {
+            Failure::new(ErrorCode::NoAnswer, format!("{}: {e}", self.named))
+        };
         let posture = self.posture(at).map_err(|e| failed(&e))?;
         let stiffness = posture.stiffness().map_err(|e| failed(&e))?;
         let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
@@ -103,9 +106,10 @@ pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<Compared>("two mach
 pub(crate) fn run(args: &CompareArgs) -> Answer<()> {
     let length = args.tool_length_mm.unwrap_or(0.0);
     if length.abs() > 1e5 {
-        return Err(Failure::input(format!(
-            "--tool-length-mm is {length}; tools are shorter than 100 m"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!("--tool-length-mm is {length}; tools are shorter than 100 m"),
+        ));
     }
     let (a, b) = (
         Design::read(&args.a, length)?,
@@ -113,7 +117,8 @@ pub(crate) fn run(args: &CompareArgs) -> Answer<()> {
     );
     let grid = grid::grid(args, (a.home().translation.vector * 1e3).into())?;
     if grid.is_none() && (args.outputs.csv.is_some() || args.outputs.plot.is_some()) {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Missing,
             "--csv and --plot show the difference over a grid; give at least one of --x, --y and --z",
         ));
     }

@@ -1,5 +1,6 @@
 //! `compensate --no-compensation`: a program of a machine as it was read, or its flat form.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::sync::Arc;
 
 use kinetostat_machining::number::counted;
@@ -63,7 +64,7 @@ pub(crate) fn copy(setting: &Setting, existing: Existing) -> Answer<()> {
 
 /// Describes the program, and the fault that prevents a compensation.
 fn of_gcode(setting: &Setting) -> Answer<(String, Option<String>)> {
-    let refuse = |error| setting.within(Failure::input(error));
+    let refuse = |error| setting.within(Failure::new(ErrorCode::ProgramUnsuited, error));
     let program = Program::read(setting.program.clone()).map_err(refuse)?;
     let holds = format!(
         "{} in {}",
@@ -77,7 +78,8 @@ fn of_gcode(setting: &Setting) -> Answer<(String, Option<String>)> {
 /// Describes a program of SINUMERIK or Heidenhain, and its fault.
 fn of_control(setting: &Setting, source: &RobotSource) -> Answer<(String, Option<String>)> {
     if !source.language.is_in_blocks() {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Unused,
             "--no-compensation writes a program of a machine as it was read, or with --expand its flat form; a program of a robot would be its own copy: leave it where it is",
         ));
     }

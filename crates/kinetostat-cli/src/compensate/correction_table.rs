@@ -1,5 +1,6 @@
 //! `kinetostat compensate --map`: a program corrected from a table.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -71,7 +72,8 @@ pub(crate) fn from_map(
 ) -> Answer<()> {
     let t = &setting.targets;
     if t.report.is_some() || t.pdf.is_some() || t.points.is_some() {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Unused,
             "--map writes no --report, no --pdf and no --points: a table of corrections says nothing about loads and stiffness; leave these options out",
         ));
     }
@@ -188,9 +190,8 @@ fn read_table(files: &InputFiles, map: &Path) -> Answer<CorrectionMap> {
             FAULTS_OF_A_TABLE => "or more places of the table",
             _ => "places of the table",
         };
-        let message =
-            fault_list::fault_list_text(places, &first, &all, |fault| fault.reason.as_str());
-        Failure::input(message).within(&map.display().to_string())
+        let failure = fault_list::failure_of(ErrorCode::FileForm, places, &first, &all);
+        failure.within(&map.display().to_string())
     })
 }
 

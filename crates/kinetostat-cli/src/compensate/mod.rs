@@ -10,6 +10,7 @@ mod copy;
 mod correction_table;
 mod long;
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use kinetostat_machining::{RunResult, merged};
@@ -201,7 +202,8 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     let to_screen = args.run.json.as_deref() == Some(Path::new("-"));
     if let Some(map) = &args.map {
         if names_model {
-            return Err(Failure::input(
+            return Err(Failure::new(
+                ErrorCode::Conflict,
                 "--map corrects from a table, and the job names a model, whose corrections would be left out: leave --map out, or give the table a job without model, placement and load (or --program alone)",
             ));
         }
@@ -289,10 +291,10 @@ fn target(job: Option<&JobFile>, args: &CompensateArgs) -> Option<RobotWord> {
 fn refuse_turn_without_words(setting: &Setting) -> Answer<()> {
     match setting.free_turn {
         FreeTurnWord::AsStated => Ok(()),
-        _ if states_turn(setting) => Err(setting.within(Failure::input(
+        _ if states_turn(setting) => Err(setting.within(Failure::new(ErrorCode::ProgramUnsuited,
             "the program states how the tool is turned about its own axis, and a corrected one keeps that: write it as a new program, with --to krl, rapid or ls (to = \"krl\" under [robot]); `kinetostat deflect --free-turn` shows what the turn is worth",
         ))),
-        FreeTurnWord::Choose | FreeTurnWord::Stiff => Err(setting.within(Failure::input(
+        FreeTurnWord::Choose | FreeTurnWord::Stiff => Err(setting.within(Failure::new(ErrorCode::ProgramUnsuited,
             "this language has no words for the turn of a tool about its own axis, so that what is chosen could not be written: write the program for the robot, with --to krl, rapid or ls (to = \"krl\" under [robot]); `kinetostat deflect --free-turn` shows what the turn is worth",
         ))),
     }

@@ -1,6 +1,7 @@
 //! Template and job in one: part, tools and orientation of the tool.
 
 use kinetostat::Pose;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{StatedTool, Template};
 use nalgebra::{Isometry3, Vector3};
 
@@ -65,9 +66,12 @@ pub(crate) fn refuse_leaning_tool(template: &Template) -> Answer<()> {
     let leans = (turn * up(template)).angle(&Vector3::z());
     match leans.to_degrees() < 0.1 {
         true => Ok(()),
-        false => Err(Failure::input(format!(
-            "the tool leans by {} deg from z of the part, and forces that are computed from the cut or measured are those of a tool along z: correct tool_orientation, or state the force under [load]",
-            short(leans.to_degrees())
-        ))),
+        false => Err(Failure::new(
+            ErrorCode::ProgramUnsuited,
+            format!(
+                "the tool leans by {} deg from z of the part, and forces that are computed from the cut or measured are those of a tool along z: correct tool_orientation, or state the force under [load]",
+                short(leans.to_degrees())
+            ),
+        )),
     }
 }

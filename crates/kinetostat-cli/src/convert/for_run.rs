@@ -1,5 +1,6 @@
 //! A program in another language before it is compensated: made in memory, so that the run goes over it.
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{
     FrameUse, Language, Made, MakeLanguage, Motion, SourceFile, Template, read,
 };
@@ -56,14 +57,16 @@ fn for_run(
 ) -> Answer<Converted> {
     let (of_robot, language) = (word.of_robot(), word.language());
     if machine.placement.scale != 1.0 {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Unused,
             "the scale of the program is not 1: a robot's program is in the robot's own millimetres; leave the scale out (--scale, scale under [placement])",
         ));
     }
     let read = read_program(&setting)?;
     let states_orientation = (read.path().moves.iter()).any(|motion| motion.tool_turn.is_some());
     if states_orientation && job.is_some_and(|j| !j.job.tools.is_empty()) {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Conflict,
             "the program says itself which tools it takes and where their tips are: leave out [[tools]] in the job file (a load for all of them stands under [load])",
         ));
     }
@@ -259,11 +262,14 @@ fn whole(
     let files = made.files.iter();
     let files = files.map(|(name, bytes)| SourceFile::new(name.as_str(), bytes.as_slice()));
     let Some(divided) = Divided::of(of_robot, files.collect()) else {
-        return Err(Failure::input(format!(
-            "the program needs {} files in {}, and a run compensates one, with at most {MOST_POINTS_OF_LS} places: leave most_points out of the template where it is smaller, or divide the program and run each part by itself",
-            made.files.len(),
-            language.title()
-        )));
+        return Err(Failure::new(
+            ErrorCode::ProgramUnsuited,
+            format!(
+                "the program needs {} files in {}, and a run compensates one, with at most {MOST_POINTS_OF_LS} places: leave most_points out of the template where it is smaller, or divide the program and run each part by itself",
+                made.files.len(),
+                language.title()
+            ),
+        ));
     };
     let joined = divided.joined()?;
     Ok(Whole {
@@ -287,7 +293,8 @@ fn on_motions(
     });
     let parts = parts.filter(|parts| parts.len() == read.path().moves.len());
     let Some(parts) = parts else {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Internal,
             "the forces of the cut do not go with the motions of the made program; nothing was written, please report this",
         ));
     };
@@ -314,7 +321,7 @@ pub(crate) fn refuse_fast_feeds(
         (speed >= 0.999 * rapid).then_some((motion.line, speed))
     });
     match fast.next() {
-        Some((line, speed)) => Err(setting.within(Failure::input(format!(
+        Some((line, speed)) => Err(setting.within(Failure::new(ErrorCode::Value, format!(
             "line {line}: the feed, {} mm/s, is not below the speed of rapids, {} mm/s, by which a program of a robot tells cuts from rapids: write a larger rapid_speed_mm_per_s in the template",
             short(speed),
             short(rapid)

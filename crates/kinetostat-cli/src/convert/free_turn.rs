@@ -1,6 +1,7 @@
 //! Poses of tool and part for the redundancy resolution of a program that is converted.
 
 use kinetostat::Pose;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{StatedFrame, Template, base_of_robot};
 use kinetostat_machining::Placement;
 use kinetostat_model::Model;
@@ -38,7 +39,8 @@ pub(crate) fn free_turn(
         )?,
     };
     let Some(orientation) = template.tool_orientation else {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Missing,
             "--free-turn turns the tool about its axis from an orientation that is stated: tool_orientation in the template, or --tool-orientation",
         ));
     };
@@ -60,8 +62,9 @@ pub(crate) fn base_of_source(read: &ReadProgram<'_>) -> Option<Isometry3<f64>> {
 fn known(frame: &StatedFrame, what: &str) -> Answer<Pose> {
     let pose = frame.pose.as_ref().map(in_metres);
     pose.ok_or_else(|| {
-        Failure::input(format!(
-            "--free-turn needs to know {what}, in the template (--template)"
-        ))
+        Failure::new(
+            ErrorCode::Missing,
+            format!("--free-turn needs to know {what}, in the template (--template)"),
+        )
     })
 }

@@ -1,5 +1,6 @@
 //! A program as a table of joint values of an arm: `convert --to joints`.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::sync::Arc;
 
 use kinetostat::{Mechanism, Pose, PostureRequest};
@@ -41,10 +42,13 @@ pub(crate) fn as_joints(
     let (base, tool) = frames(template, read)?;
     let mechanism = asked.model.mechanism.with_tool(&tool);
     let Some(arm) = ArmOfTable::of(asked.model, &tool).map(Arc::new) else {
-        return Err(Failure::input(format!(
-            "the model '{}' is no arm of six turning joints in one chain: name one with --model, or write poses (--to csv)",
-            asked.model.name()
-        )));
+        return Err(Failure::new(
+            ErrorCode::ModelUnsuited,
+            format!(
+                "the model '{}' is no arm of six turning joints in one chain: name one with --model, or write poses (--to csv)",
+                asked.model.name()
+            ),
+        ));
     };
     let mut start = JointStart::default();
     start.tolerance_mm = template.tolerance_mm;
@@ -71,7 +75,10 @@ pub(crate) fn as_joints(
     let done = joint_table(bytes, &table, &start);
     let done = done.map_err(|error| {
         let line = source_line(made, error.line);
-        setting.within(Failure::input(format!("line {line}: {}", error.reason)))
+        setting.within(Failure::new(
+            ErrorCode::ProgramUnsuited,
+            format!("line {line}: {}", error.reason),
+        ))
     })?;
     for (line, joints) in &done.rows {
         let commands = arm.model_joints(joints);
@@ -79,7 +86,7 @@ pub(crate) fn as_joints(
         if let Err(error) = posture.and_then(|posture| posture.within_limits()) {
             let line = source_line(made, *line);
             let failure = Failure::from(error);
-            return Err(setting.within(Failure::input(format!(
+            return Err(setting.within(Failure::new(ErrorCode::ProgramUnsuited, format!(
                 "line {line}: {}: move the part, turn the tool about its axis (--free-turn), or begin in another configuration (start_joints_deg in the template)",
                 failure.plain
             ))));
@@ -132,17 +139,26 @@ fn first_joints(
     let first = moves.find(|motion| motion.known != Knowledge::Nothing);
     let turned = |motion: &Move| motion.orientation(1.0).or(template.tool_orientation);
     let Some((motion, turn)) = first.and_then(|motion| Some((motion, turned(motion)?))) else {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::ProgramUnsuited,
             "the path has no place, or does not say how the tool stands: state its orientation (tool_orientation in the template, or --tool-orientation)",
         ));
     };
     let pose = in_metres(&(base * Isometry3::from_parts(motion.end.into(), turn)));
     let posture = mechanism.posture(&pose).map_err(|error| {
         let failure = Failure::from(error);
-        Failure::input(format!("line {}: {}", motion.line, failure.plain))
+        Failure::new(
+            ErrorCode::ProgramUnsuited,
+            format!("line {}: {}", motion.line, failure.plain),
+        )
     })?;
     let commands = <[f64; 6]>::try_from(posture.commands());
-    commands.map_err(|_| Failure::input("the model has other joints than six"))
+    commands.map_err(|_| {
+        Failure::new(
+            ErrorCode::ModelUnsuited,
+            "the model has other joints than six",
+        )
+    })
 }
 
 /// Poses of part in base, mm, and tool in flange, m: of the template, else of the program.
@@ -150,7 +166,8 @@ fn frames(template: &Template, read: &ReadProgram<'_>) -> Answer<(Isometry3<f64>
     let robot = read.robot().map(|robot| &robot.path);
     let several = robot.is_some_and(|path| path.tools.len() > 1) || template.tools.len() > 1;
     if several {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::ProgramUnsuited,
             "the program takes several tools, and a table of joint values is of one: divide the program",
         ));
     }
@@ -163,9 +180,12 @@ fn frames(template: &Template, read: &ReadProgram<'_>) -> Answer<(Isometry3<f64>
     let of_template = numbered.map_or(template.tool.frame.pose, |tool| tool.frame.pose);
     let tool = of_template.or_else(|| robot.and_then(|path| of_source(path.tools.first()?)));
     let missing = |what: &str| {
-        Failure::input(format!(
-            "joint values need to know {what}, and neither the program nor the template (--template) says it"
-        ))
+        Failure::new(
+            ErrorCode::Missing,
+            format!(
+                "joint values need to know {what}, and neither the program nor the template (--template) says it"
+            ),
+        )
     };
     let base = base.ok_or_else(|| missing("where the part is: pose under [base]"))?;
     let tool = tool.ok_or_else(|| missing("where the tip of the tool is: pose under [tool]"))?;

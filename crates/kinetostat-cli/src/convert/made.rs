@@ -1,5 +1,6 @@
 //! The program in the other language.
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{
     Made, MakeError, MakeLanguage, events_of_gcode, make, make_of_flat_robot,
 };
@@ -11,7 +12,7 @@ use crate::job::setting::Setting;
 use crate::job::template_file::TemplateFile;
 use crate::program::summary::SPINDLE_NOT_STARTED;
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::fault_list::fault_list_text;
+use crate::ui::fault_list::failure_of;
 
 /// The program in the other language.
 pub(crate) fn made(
@@ -33,7 +34,8 @@ pub(crate) fn made(
         return done.map_err(refused);
     }
     if language == MakeLanguage::Gcode {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Unused,
             "the program is in G-code already: `kinetostat expand` writes it flat, `kinetostat compensate --no-compensation` as it was read",
         ));
     }
@@ -60,10 +62,9 @@ pub(crate) fn spindle_text(made: &Made) -> Option<String> {
 
 fn refused(setting: &Setting, template: &TemplateFile, all: &[MakeError]) -> Failure {
     let Some(first) = all.first() else {
-        return Failure::input("the program is refused");
+        return Failure::new(ErrorCode::ProgramRefused, "the program is refused");
     };
-    let text = fault_list_text("lines", first, all, |fault| fault.reason.as_str());
-    let failure = Failure::input(text);
+    let failure = failure_of(ErrorCode::ProgramRefused, "lines", first, all);
     match (first.is_of_template, &template.name) {
         (true, Some(name)) => setting.of_flat(failure).within(name),
         (true, None) => setting.of_flat(failure),

@@ -12,6 +12,7 @@ pub(crate) mod made;
 pub(crate) mod plausible;
 pub(crate) mod targets;
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat_formats::{BetweenRows, Kept, Made, Template};
@@ -187,10 +188,13 @@ fn with_arm(
             ("--joint-rows", args.joint_rows.is_some()),
         ];
         if let Some((option, _)) = given.into_iter().find(|(_, is_given)| *is_given) {
-            return Err(Failure::input(format!(
-                "{option} is for tables of joint values, and neither '{}' nor the new program is one: leave it out",
-                setting.program_name
-            )));
+            return Err(Failure::new(
+                ErrorCode::Unused,
+                format!(
+                    "{option} is for tables of joint values, and neither '{}' nor the new program is one: leave it out",
+                    setting.program_name
+                ),
+            ));
         }
     }
     let Some(source) = setting.robot.as_mut().filter(|_| is_table) else {

@@ -1,6 +1,7 @@
 //! Plausibility of a conversion: the limits of `compensate`, for what the template and the source state.
 
 use kinetostat::Pose;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{FrameUse, Template};
 use kinetostat_machining::{
     Beyond, RunError, ToolGiven, Warning, beyond_tool_length, fastest_feed,
@@ -108,11 +109,14 @@ fn refuse_radians(template: &Template, read: &ReadProgram<'_>) -> Answer<()> {
         deg > NO_TURN_DEG && kinetostat_model::looks_like_radians(deg)
     };
     match all.into_iter().find(odd) {
-        Some((what, turn)) => Err(Failure::input(format!(
-            "the orientation of the {what} turns by {} deg, which is {} deg in radians: orientations are in degrees here; write them in degrees, or under a name that ends with _rad",
-            short(turn.angle().to_degrees()),
-            short(turn.angle().to_degrees().to_degrees())
-        ))),
+        Some((what, turn)) => Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "the orientation of the {what} turns by {} deg, which is {} deg in radians: orientations are in degrees here; write them in degrees, or under a name that ends with _rad",
+                short(turn.angle().to_degrees()),
+                short(turn.angle().to_degrees().to_degrees())
+            ),
+        )),
         None => Ok(()),
     }
 }

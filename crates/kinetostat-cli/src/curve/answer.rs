@@ -3,6 +3,7 @@
 
 use kinetostat::continuation::{BranchEnd, SpecialKind};
 use kinetostat::number::{larger, smaller};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{Warning, folds};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -81,7 +82,7 @@ impl CurveAnswer {
     pub(crate) fn unanswered(&self) -> Option<Failure> {
         let points: usize = self.branches.iter().map(|b| b.points.len()).sum();
         (points < 2 && !self.force_limited).then(|| {
-            Failure::unanswered(
+            Failure::new(ErrorCode::NotConverged,
                 "the curve could not be followed from its start: no second equilibrium was found near it. Check what grows and its unit, or how far",
             )
         })

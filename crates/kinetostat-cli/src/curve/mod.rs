@@ -24,6 +24,7 @@ use kinetostat::{
 use kinetostat_analysis::degenerate::is_degenerate;
 use kinetostat_analysis::rotation::ContinuousRotation;
 use kinetostat_analysis::serial_chain::{SerialChain, is_serial_chain, problem_at};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{Warning, WarningCode, large_load};
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -272,10 +273,13 @@ fn not_there(q: &CurveQuery, there: &ChainProblem<'_>, error: kinetostat::Error)
         Measure::Moment(_) => "deg",
         _ => "mm",
     };
-    Failure::unanswered(format!(
-        "{error}; nothing loads the chain: its tool may be out of reach where the curve starts, {} {unit} from the commanded place. Start nearer to that place",
-        number(q.shown(q.start()), 6)
-    ))
+    Failure::new(
+        ErrorCode::NotConverged,
+        format!(
+            "{error}; nothing loads the chain: its tool may be out of reach where the curve starts, {} {unit} from the commanded place. Start nearer to that place",
+            number(q.shown(q.start()), 6)
+        ),
+    )
 }
 
 fn critical_loads(

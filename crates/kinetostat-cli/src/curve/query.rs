@@ -3,6 +3,7 @@
 use kinetostat::number::{larger, largest_size};
 use kinetostat::{EndCondition, Load, Parameter, Twist, Wrench, continuation::LoadPattern};
 use kinetostat_analysis::serial_chain::SerialChain;
+use kinetostat_diagnostic::ErrorCode;
 use nalgebra::{Vector3, Vector6};
 
 use crate::curve::arguments::CurveArgs;
@@ -80,9 +81,12 @@ impl CurveQuery {
 fn ends(option: &str, values: &[f64]) -> Answer<(f64, f64)> {
     let (a, b) = (values[0], values[1]);
     if a == b {
-        return Err(Failure::input(format!(
-            "{option} goes from {a} to {b}: there is nothing between equal ends; give two different numbers"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "{option} goes from {a} to {b}: there is nothing between equal ends; give two different numbers"
+            ),
+        ));
     }
     Ok((a.min(b), a.max(b)))
 }
@@ -92,9 +96,10 @@ fn unit(option: &str, values: &[f64]) -> Answer<Vector3<f64>> {
     // The direction is scaled first: squares of very large or very small numbers overflow or underflow.
     let most = largest_size(&v);
     if most == 0.0 {
-        return Err(Failure::input(format!(
-            "{option} 0 0 0 is no direction; give one, as in {option} 1 0 0"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!("{option} 0 0 0 is no direction; give one, as in {option} 1 0 0"),
+        ));
     }
     Ok((v / most).normalize())
 }
@@ -133,9 +138,10 @@ pub(crate) fn curve_query(
     ];
     for (option, value, low, high) in counts {
         if value.is_some_and(|v| !(low..=high).contains(&v)) {
-            return Err(Failure::input(format!(
-                "{option} takes a number from {low} to {high}"
-            )));
+            return Err(Failure::new(
+                ErrorCode::Value,
+                format!("{option} takes a number from {low} to {high}"),
+            ));
         }
     }
     let mut query = CurveQuery {
@@ -165,7 +171,8 @@ pub(crate) fn curve_query(
         (None, Some(about), None) => turned(&mut query, about, args)?,
         (None, None, Some(range)) => query.range = ends("--factor", range)?,
         _ => {
-            return Err(Failure::input(
+            return Err(Failure::new(
+                ErrorCode::Missing,
                 "what shall grow? Either a displacement (--direction X Y Z --displacement-mm FROM TO, or --about X Y Z --turn-deg FROM TO) or a load (--force FX FY FZ --factor FROM TO)",
             ));
         }
@@ -173,7 +180,8 @@ pub(crate) fn curve_query(
     if query.driven.is_some()
         && (args.force.is_some() || args.moment.is_some() || !args.grow.is_empty())
     {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Conflict,
             "--force, --moment and --grow are loads that grow with --factor; here the motion grows. A load that acts all the time is --constant-force, --constant-moment or --load NODE=FX,FY,FZ",
         ));
     }
@@ -192,13 +200,15 @@ pub(crate) fn curve_query(
 /// The tool is pushed along a direction.
 fn pushed(query: &mut CurveQuery, direction: &[f64], args: &CurveArgs) -> Answer<()> {
     let range = args.displacement_mm.as_ref().ok_or_else(|| {
-        Failure::input(
+        Failure::new(
+            ErrorCode::Missing,
             "how far? --direction needs --displacement-mm FROM TO, as in --displacement-mm 0 20",
         )
     })?;
     let (low, high) = ends("--displacement-mm", range)?;
     if 1e-3 * larger(low.abs(), high.abs()) > FARTHEST {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Value,
             "--displacement-mm leads farther than 10 km; displacements are in mm",
         ));
     }
@@ -221,11 +231,15 @@ fn pushed(query: &mut CurveQuery, direction: &[f64], args: &CurveArgs) -> Answer
 /// The tool is turned about a direction.
 fn turned(query: &mut CurveQuery, about: &[f64], args: &CurveArgs) -> Answer<()> {
     let range = args.turn_deg.as_ref().ok_or_else(|| {
-        Failure::input("how far? --about needs --turn-deg FROM TO, as in --turn-deg 0 5")
+        Failure::new(
+            ErrorCode::Missing,
+            "how far? --about needs --turn-deg FROM TO, as in --turn-deg 0 5",
+        )
     })?;
     let (low, high) = ends("--turn-deg", range)?;
     if low < -180.0 || high > 180.0 {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Value,
             "--turn-deg: the tool can be turned by -180 to 180 degrees",
         ));
     }
@@ -273,7 +287,8 @@ fn load_pattern(
         })
         .collect();
     if force == 0.0 && moment == 0.0 && sizes.iter().all(|s| *s == 0.0) {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Missing,
             "which load shall grow? Give --force FX FY FZ, --moment MX MY MZ or --grow NODE=FX,FY,FZ, not all zero",
         ));
     }
@@ -317,11 +332,14 @@ fn load_pattern(
     let length = moves.directions.length;
     let pull = Vector6::from_fn(|i, _| if i < 3 { end.0[i] * length } else { end.0[i] });
     if loads.is_empty() && (moves.directions.basis.transpose() * pull).norm() < 1e-9 * pull.norm() {
-        return Err(Failure::input(format!(
-            "the growing load does nothing: the {} is rigid in {}, where it acts. Choose another direction",
-            moves.subject,
-            holding.rigid.join(", ")
-        )));
+        return Err(Failure::new(
+            ErrorCode::RigidDirection,
+            format!(
+                "the growing load does nothing: the {} is rigid in {}, where it acts. Choose another direction",
+                moves.subject,
+                holding.rigid.join(", ")
+            ),
+        ));
     }
     query.holding = holding;
     query.parameter = Parameter::Load(LoadPattern { end, loads });

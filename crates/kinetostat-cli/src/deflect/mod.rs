@@ -8,6 +8,7 @@ pub(crate) mod arguments;
 mod place;
 mod text;
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat_machining::RunResult;
@@ -53,7 +54,8 @@ pub(crate) fn run(args: DeflectArgs, given: &Given) -> Answer<()> {
     let is_job = !args.place.given() && FileKind::of_file(subject) == Some(FileKind::Job);
     if is_job || args.program.program.is_some() {
         if args.place.given() {
-            return Err(Failure::input(
+            return Err(Failure::new(
+                ErrorCode::Conflict,
                 "--at, --joints and --controller ask for one place, --program for all of a program: keep one of them",
             ));
         }

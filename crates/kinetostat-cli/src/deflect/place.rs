@@ -1,5 +1,6 @@
 //! The deflection at one place.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat::Wrench;
@@ -23,10 +24,13 @@ fn without_load(error: kinetostat::Error) -> Failure {
             load_factor,
             limit: None,
             ..
-        } => Failure::unanswered(format!(
-            "{place}: without any load on the tool, weights, preloads and deviations of the model lead from the commanded place to no equilibrium (only {} of them could be followed); check them, or let `kinetostat equilibria` search for the shapes that the machine can take",
-            kinetostat_machining::number::share(*load_factor)
-        )),
+        } => Failure::new(
+            ErrorCode::NotConverged,
+            format!(
+                "{place}: without any load on the tool, weights, preloads and deviations of the model lead from the commanded place to no equilibrium (only {} of them could be followed); check them, or let `kinetostat equilibria` search for the shapes that the machine can take",
+                kinetostat_machining::number::share(*load_factor)
+            ),
+        ),
         _ => error.into(),
     }
 }

@@ -3,6 +3,7 @@
 //! It takes a directory and writes a whole example into it: model, job, program, and what `compensate` makes of
 //! them.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -116,17 +117,20 @@ fn directory(path: &Path) -> Answer<bool> {
                 }
                 _ => description(&error),
             };
-            Err(Failure::input(format!(
-                "the directory '{}' cannot be made: {reason}; choose another with --out",
-                path.display()
-            )))
+            Err(Failure::new(
+                ErrorCode::Output,
+                format!(
+                    "the directory '{}' cannot be made: {reason}; choose another with --out",
+                    path.display()
+                ),
+            ))
         }
     }
 }
 
 fn in_directory(args: &DemoArgs) -> Answer<()> {
     let preset = preset_text("orthoglide")
-        .ok_or_else(|| Failure::input("the preset orthoglide is missing"))?;
+        .ok_or_else(|| Failure::new(ErrorCode::Internal, "the preset orthoglide is missing"))?;
     let model_text = format!("{preset}{DEVIATIONS}");
     let at = |name: &str| args.out.join(name);
     let sources = [

@@ -3,6 +3,7 @@
 //! It takes the name of a language and prints its table; the tables themselves are those of the crates that read.
 
 use clap::{Args, Subcommand};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{
     Language as Format, MakeLanguage, StatementRow, Treatment as OfStatement,
 };
@@ -49,10 +50,13 @@ fn named(name: &str) -> Answer<Language> {
     let found = languages().find(|language| language.name == lower);
     found.ok_or_else(|| {
         let names: Vec<&str> = languages().map(|language| language.name).collect();
-        Failure::input(format!(
-            "there is no language `{name}`; there are: {}",
-            names.join(", ")
-        ))
+        Failure::new(
+            ErrorCode::UnknownName,
+            format!(
+                "there is no language `{name}`; there are: {}",
+                names.join(", ")
+            ),
+        )
     })
 }
 

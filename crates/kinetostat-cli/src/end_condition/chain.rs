@@ -3,6 +3,7 @@
 use kinetostat::{Chain, Equilibrium, Load, Wrench};
 use kinetostat_analysis::outline::chain_outline;
 use kinetostat_analysis::serial_chain::SerialChain;
+use kinetostat_diagnostic::ErrorCode;
 use nalgebra::Vector3;
 
 use crate::end_condition::coordinates::{CoordinateName, coordinates_of, values_of};
@@ -49,7 +50,12 @@ impl Subject for SerialChain {
 
 /// A dead force at a node of a chain, written `NODE=FX,FY,FZ`; `before`: what stands in the option before the node.
 pub(crate) fn node_force(chain: &Chain, option: &str, before: &str, text: &str) -> Answer<Load> {
-    let refuse = |reason: String| Failure::input(format!("{option} '{before}{text}': {reason}"));
+    let refuse = |reason: String| {
+        Failure::new(
+            ErrorCode::Value,
+            format!("{option} '{before}{text}': {reason}"),
+        )
+    };
     let Some((name, values)) = text.split_once('=') else {
         return Err(refuse(format!(
             "write a node of the chain and three forces in N, as in {option} {before}{}=0,0,-100",

@@ -1,6 +1,7 @@
 //! Displacement control of the tool, direction by direction.
 
 use kinetostat::{EndCondition, Pose, Prescribed, Wrench, spatial::turn_matrix};
+use kinetostat_diagnostic::ErrorCode;
 use nalgebra::{Rotation3, Vector3, Vector6};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -77,9 +78,12 @@ pub(crate) fn list(option: &str, text: &str, driven: Option<usize>) -> Answer<[b
             "rotations" => set[3..].fill(true),
             "others" => {
                 let Some(driven) = driven else {
-                    return Err(Failure::input(format!(
-                        "{option} {text}: 'others' means all directions but the one along which the tool is pushed, and here it is pushed along none; name the directions"
-                    )));
+                    return Err(Failure::new(
+                        ErrorCode::Value,
+                        format!(
+                            "{option} {text}: 'others' means all directions but the one along which the tool is pushed, and here it is pushed along none; name the directions"
+                        ),
+                    ));
                 };
                 for (k, free) in set.iter_mut().enumerate() {
                     *free |= k != driven;
@@ -88,9 +92,12 @@ pub(crate) fn list(option: &str, text: &str, driven: Option<usize>) -> Answer<[b
             name => match DIRECTIONS.iter().position(|d| *d == name) {
                 Some(k) => set[k] = true,
                 None => {
-                    return Err(Failure::input(format!(
-                        "{option} {text}: '{word}' is no direction; there are x, y, z (moves along) and rx, ry, rz (turns about), and the words all, none, translations, rotations, others"
-                    )));
+                    return Err(Failure::new(
+                        ErrorCode::UnknownName,
+                        format!(
+                            "{option} {text}: '{word}' is no direction; there are x, y, z (moves along) and rx, ry, rz (turns about), and the words all, none, translations, rotations, others"
+                        ),
+                    ));
                 }
             },
         }
@@ -135,7 +142,8 @@ pub(crate) fn holding(
         (Some(text), _) => list("--hold", text, driven_axis(&axes))?.map(|held| !held),
         (None, Some(text)) => {
             if others(&args.free) && driven.is_some() && driven_axis(&axes).is_none() {
-                return Err(Failure::input(
+                return Err(Failure::new(
+                    ErrorCode::Unused,
                     "--free others: with these --axes the tool is not pushed along one of the axes; leave --axes out, then they follow the direction",
                 ));
             }
@@ -149,20 +157,26 @@ pub(crate) fn holding(
     if let Some(d) = driven {
         let twist = d.twist();
         if moves.directions.share(&twist) < 1.0 - 1e-6 {
-            return Err(Failure::input(format!(
-                "the tool cannot be moved {}: the {} is rigid {}. Choose a direction in which it can move",
-                d.description(),
-                moves.subject,
-                motion_list(&rigid, "along or about a skew direction"),
-            )));
+            return Err(Failure::new(
+                ErrorCode::RigidDirection,
+                format!(
+                    "the tool cannot be moved {}: the {} is rigid {}. Choose a direction in which it can move",
+                    d.description(),
+                    moves.subject,
+                    motion_list(&rigid, "along or about a skew direction"),
+                ),
+            ));
         }
         let local = turn.transpose() * twist;
         if let Some(k) = (0..6).find(|&k| free[k] && local[k].abs() > 1e-9) {
-            return Err(Failure::input(format!(
-                "the tool is pushed {}, and is to be free in '{}', which is a part of that: hold it there, or write --free others to free all that is across",
-                d.description(),
-                DIRECTIONS[k]
-            )));
+            return Err(Failure::new(
+                ErrorCode::Conflict,
+                format!(
+                    "the tool is pushed {}, and is to be free in '{}', which is a part of that: hold it there, or write --free others to free all that is across",
+                    d.description(),
+                    DIRECTIONS[k]
+                ),
+            ));
         }
     }
     let holding = Holding {
@@ -209,10 +223,13 @@ impl Holding {
         let wrong = (0..6)
             .find(|&k| self.end.prescribed[k] == Prescribed::Pose && local[k].abs() > 1e-9 * most);
         match wrong {
-            Some(k) => Err(Failure::input(format!(
-                "{what} has a part in '{}', where the tool is held: it would change nothing. Free that direction (--free {}), or leave that part out",
-                DIRECTIONS[k], DIRECTIONS[k]
-            ))),
+            Some(k) => Err(Failure::new(
+                ErrorCode::Conflict,
+                format!(
+                    "{what} has a part in '{}', where the tool is held: it would change nothing. Free that direction (--free {}), or leave that part out",
+                    DIRECTIONS[k], DIRECTIONS[k]
+                ),
+            )),
             None => Ok(()),
         }
     }

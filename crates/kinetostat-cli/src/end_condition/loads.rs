@@ -2,6 +2,7 @@
 
 use kinetostat::Wrench;
 use kinetostat_analysis::serial_chain::SerialChain;
+use kinetostat_diagnostic::ErrorCode;
 use nalgebra::Vector3;
 
 use crate::end_condition::arguments::EndArgs;
@@ -30,9 +31,12 @@ pub(crate) fn constant(args: &EndArgs) -> Answer<Wrench> {
 
 /// A growing force on a node was requested of a machine.
 pub(crate) fn no_growing_nodes(option: &str) -> Failure {
-    Failure::input(format!(
-        "{option} lets a force on a node grow, and this model has several limbs. The curve of a machine has the motions of its tool and the load on its tool as unknowns, and everything else follows from them: only a load on the tool can grow there (--force, --moment). A force on a node that acts all the time is --load LIMB:NODE=FX,FY,FZ"
-    ))
+    Failure::new(
+        ErrorCode::ModelUnsuited,
+        format!(
+            "{option} lets a force on a node grow, and this model has several limbs. The curve of a machine has the motions of its tool and the load on its tool as unknowns, and everything else follows from them: only a load on the tool can grow there (--force, --moment). A force on a node that acts all the time is --load LIMB:NODE=FX,FY,FZ"
+        ),
+    )
 }
 
 /// Adds the forces on nodes that act all the time.

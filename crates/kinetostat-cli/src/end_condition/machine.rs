@@ -3,6 +3,7 @@
 use kinetostat::{Mechanism, MechanismEquilibrium, MotionKind, Posture, machine::NearSingularity};
 use kinetostat_analysis::movable::MovableDirections;
 use kinetostat_analysis::outline::chain_outline;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{Warning, WarningCode};
 use nalgebra::Vector3;
 
@@ -61,11 +62,14 @@ fn with_node_force(mechanism: &Mechanism, text: &str) -> Answer<Mechanism> {
     });
     let Some((limb, own)) = named else {
         let names: Vec<&str> = limbs.iter().map(|limb| limb.name.as_str()).collect();
-        return Err(Failure::input(format!(
-            "--load '{text}': this model has several limbs, so name the limb before its node, as in --load {}:tip=0,0,-100. It has: {}",
-            names.first().copied().unwrap_or_default(),
-            names.join(", ")
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--load '{text}': this model has several limbs, so name the limb before its node, as in --load {}:tip=0,0,-100. It has: {}",
+                names.first().copied().unwrap_or_default(),
+                names.join(", ")
+            ),
+        ));
     };
     let before = format!("{}:", limb.name);
     let load = node_force(&limb.actual, "--load", &before, own)?;

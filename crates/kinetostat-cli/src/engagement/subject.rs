@@ -1,5 +1,6 @@
 //! Subject of the command: a program, or a job with its program.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use crate::engagement::arguments::EngagementArgs;
@@ -19,11 +20,14 @@ pub(super) fn subject(args: &EngagementArgs) -> Answer<Subject<'_>> {
         ending.is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
     };
     let twice = |what: &str, a: &Path, b: &Path| {
-        Err(Failure::input(format!(
-            "two {what} are named: '{}' and '{}'; keep one of them",
-            a.display(),
-            b.display()
-        )))
+        Err(Failure::new(
+            ErrorCode::Conflict,
+            format!(
+                "two {what} are named: '{}' and '{}'; keep one of them",
+                a.display(),
+                b.display()
+            ),
+        ))
     };
     let named = args.subject.as_deref();
     let (job, program) = match named.map(is_job) {

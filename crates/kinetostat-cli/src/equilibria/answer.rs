@@ -2,6 +2,7 @@
 //! the list is.
 
 use kinetostat::number::{larger, smaller};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{Warning, folds};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -130,10 +131,10 @@ impl EquilibriaAnswer {
     /// Returns a failure if nothing was found, which does not prove that there is no equilibrium.
     pub(crate) fn unanswered(&self) -> Option<Failure> {
         self.equilibria.is_empty().then(|| {
-            Failure::unanswered(format!(
-                "no equilibrium of the {} was found",
-                self.tool_held.subject
-            ))
+            Failure::new(
+                ErrorCode::NotConverged,
+                format!("no equilibrium of the {} was found", self.tool_held.subject),
+            )
         })
     }
 

@@ -1,6 +1,7 @@
 //! The query of `equilibria`, from its options.
 
 use kinetostat::{EndCondition, Twist, equilibrium::SearchSettings, spatial::moved};
+use kinetostat_diagnostic::ErrorCode;
 use nalgebra::Vector3;
 
 use crate::end_condition::holding::{Holding, holding};
@@ -34,7 +35,8 @@ pub(crate) fn equilibria_query(moves: &Moves, args: &EquilibriaArgs) -> Answer<E
     let shift = part("--displaced-mm", &args.displaced_mm)?;
     let turn = part("--turned-deg", &args.turned_deg)?;
     if turn.norm() > 180.0 {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Value,
             "--turned-deg: the tool can be turned by 180 degrees at most (the length of the three)",
         ));
     }
@@ -42,9 +44,12 @@ pub(crate) fn equilibria_query(moves: &Moves, args: &EquilibriaArgs) -> Answer<E
     let twist = Twist::new(shift * 1e-3, turn.map(f64::to_radians));
     let subject = moves.subject;
     if twist.0.amax() > 0.0 && moves.directions.share(&twist.0) < 1.0 - 1e-6 {
-        return Err(Failure::input(format!(
-            "the tool cannot be held there: the {subject} cannot move its end that way (a planar {subject} stays in its plane). Leave out the part of --displaced-mm and --turned-deg across it",
-        )));
+        return Err(Failure::new(
+            ErrorCode::RigidDirection,
+            format!(
+                "the tool cannot be held there: the {subject} cannot move its end that way (a planar {subject} stays in its plane). Leave out the part of --displaced-mm and --turned-deg across it",
+            ),
+        ));
     }
     let place = moved(&moves.place, &twist);
     let held = holding(moves, &args.end, &place, acting, displaced || !loaded, None)?;
@@ -52,9 +57,10 @@ pub(crate) fn equilibria_query(moves: &Moves, args: &EquilibriaArgs) -> Answer<E
     let count = |option: &str, value: Option<usize>, default: usize| match value {
         None => Ok(default),
         Some(n) if (1..=10_000_000).contains(&n) => Ok(n),
-        Some(_) => Err(Failure::input(format!(
-            "{option} takes a number from 1 to 10000000"
-        ))),
+        Some(_) => Err(Failure::new(
+            ErrorCode::Value,
+            format!("{option} takes a number from 1 to 10000000"),
+        )),
     };
     let default = SearchSettings::default();
     let settings = default
@@ -106,10 +112,13 @@ fn refuse_displaced_and_free(held: &Holding, twist: &Twist) -> Answer<()> {
         held.end.prescribed[k] == kinetostat::Prescribed::Wrench && local[k].abs() > 1e-9 * most
     });
     match wrong {
-        Some(k) => Err(Failure::input(format!(
-            "the tool is to be displaced in '{0}' and free in '{0}': hold it there, or leave that part of the displacement out",
-            crate::end_condition::holding::DIRECTIONS[k]
-        ))),
+        Some(k) => Err(Failure::new(
+            ErrorCode::Conflict,
+            format!(
+                "the tool is to be displaced in '{0}' and free in '{0}': hold it there, or leave that part of the displacement out",
+                crate::end_condition::holding::DIRECTIONS[k]
+            ),
+        )),
         None => Ok(()),
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! It takes a program, folders of subprograms and diameters of tools; it gives plain blocks with the lines that they came from.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -46,9 +47,12 @@ pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
         return of_control(args, language, bytes);
     }
     if let Some(option) = args.stated.of_others() {
-        return Err(Failure::input(format!(
-            "{option} is for programs of robots, and '{name}' is read as G-code; leave it out"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Unused,
+            format!(
+                "{option} is for programs of robots, and '{name}' is read as G-code; leave it out"
+            ),
+        ));
     }
     let mut settings = settings(None, &args.with, &reading(None, &args.reading)?)?;
     settings.options.reading.moving_calls = moving_subprograms(None, &args.stated)?;
@@ -82,9 +86,10 @@ pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
 fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<()> {
     let other = args.with.given_for_gcode();
     if let Some(option) = other.filter(|option| *option != NO_COMMENTS) {
-        return Err(Failure::input(format!(
-            "{option} is for programs in G-code; leave it out"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Unused,
+            format!("{option} is for programs in G-code; leave it out"),
+        ));
     }
     let folders = folders(&args.with)?;
     let name = args.program.file_name().unwrap_or_default();
@@ -144,9 +149,7 @@ fn assumed_of_calls(source: &RobotSource, text: &FlatText) -> Answer<Option<Stri
     let reading = &source.settings.reading;
     match read(source.language, vec![text.file.clone()], reading) {
         Ok(program) => Ok(of_calls(&program).map(|assumed| assumed.text)),
-        Err(all) if !reading.moving_calls.is_empty() => {
-            Err(refused(&all, |fault| fault.reason.as_str()))
-        }
+        Err(all) if !reading.moving_calls.is_empty() => Err(refused(&all)),
         Err(_) => Ok(None),
     }
 }

@@ -1,5 +1,6 @@
 //! Kinds of files that are told apart by what is in them: a job, a model or a program in the place of another is named as such.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -113,13 +114,16 @@ pub(crate) fn refuse_other_kind(path: &Path, bytes: &[u8], needed: FileKind) -> 
             _ => None,
         }
     });
-    Err(Failure::input(format!(
-        "'{}' is {}, and {} is needed here: {}",
-        path.display(),
-        kind.words(),
-        needed.words(),
-        kind.advice(needed, path, named.as_deref())
-    )))
+    Err(Failure::new(
+        ErrorCode::FileForm,
+        format!(
+            "'{}' is {}, and {} is needed here: {}",
+            path.display(),
+            kind.words(),
+            needed.words(),
+            kind.advice(needed, path, named.as_deref())
+        ),
+    ))
 }
 
 /// The beginning of a file, if it can be read.

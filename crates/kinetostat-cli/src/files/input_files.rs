@@ -1,6 +1,7 @@
 //! Files that a command reads, with words for everything that can be wrong with them. The demo
 //! reads its own files from memory before they are on disk.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
@@ -74,10 +75,13 @@ impl InputFiles {
         refuse_other_kind(path, &bytes, FileKind::Job)?;
         let text = text_in("job file", path, bytes)?;
         if text.trim().is_empty() {
-            return Err(Failure::input(format!(
-                "the job file '{}' is empty; start from the one that `kinetostat demo` writes",
-                path.display()
-            )));
+            return Err(Failure::new(
+                ErrorCode::JobFile,
+                format!(
+                    "the job file '{}' is empty; start from the one that `kinetostat demo` writes",
+                    path.display()
+                ),
+            ));
         }
         Ok(text)
     }
@@ -113,7 +117,7 @@ pub(crate) fn refuse_beyond_memory(path: &Path, bytes: usize, lines: usize) -> A
         .saturating_add(2 * bytes);
     // The address space is asked for and given back; no page of it is touched.
     Vec::<u8>::new().try_reserve_exact(needed).map_err(|_| {
-        Failure::input(format!(
+        Failure::new(ErrorCode::Memory, format!(
             "the program '{}' has {lines} lines ({:.0} MB) and needs about {:.1} GB of memory, more than the system gives; divide it, or raise the limit of memory (ulimit -v)",
             path.display(),
             bytes as f64 * 1e-6,
@@ -129,8 +133,12 @@ fn is_toml(path: &Path) -> bool {
 
 /// Bytes that are text.
 pub(crate) fn text_in(what: &str, path: &Path, bytes: Vec<u8>) -> Answer<String> {
-    let refuse =
-        |message: &str| Failure::input(format!("the {what} '{}' {message}", path.display()));
+    let refuse = |message: &str| {
+        Failure::new(
+            ErrorCode::FileNotRead,
+            format!("the {what} '{}' {message}", path.display()),
+        )
+    };
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         return Err(refuse("is written in UTF-16; save it as UTF-8"));
     }
@@ -148,8 +156,12 @@ pub(crate) fn text_in(what: &str, path: &Path, bytes: Vec<u8>) -> Answer<String>
 }
 
 fn read(what: &str, path: &Path, most: u64) -> Answer<Vec<u8>> {
-    let refuse =
-        |message: &str| Failure::input(format!("the {what} '{}' {message}", path.display()));
+    let refuse = |message: &str| {
+        Failure::new(
+            ErrorCode::FileNotRead,
+            format!("the {what} '{}' {message}", path.display()),
+        )
+    };
     if path.is_dir() {
         return Err(refuse("is a directory; name a file in it"));
     }

@@ -3,6 +3,7 @@
 //! input never, and no link is followed. What a killed run left there is removed or named (see
 //! `journal`).
 
+use kinetostat_diagnostic::ErrorCode;
 use std::fs;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -53,20 +54,26 @@ struct Claimed {
 
 impl Claimed {
     fn refused(&self, error: &std::io::Error) -> Failure {
-        Failure::input(format!(
-            "the {} cannot be written to '{}': {}; no output was changed",
-            self.what,
-            self.target.display(),
-            description(error)
-        ))
+        Failure::new(
+            ErrorCode::Output,
+            format!(
+                "the {} cannot be written to '{}': {}; no output was changed",
+                self.what,
+                self.target.display(),
+                description(error)
+            ),
+        )
     }
 }
 
 fn refused(what: &str, target: &Path, reason: &str) -> Failure {
-    Failure::input(format!(
-        "the {what} cannot be written to '{}': {reason}",
-        target.display()
-    ))
+    Failure::new(
+        ErrorCode::Output,
+        format!(
+            "the {what} cannot be written to '{}': {reason}",
+            target.display()
+        ),
+    )
 }
 
 /// Refuses a target that is an input, another output or a link, or whose directory is missing. The policy for
@@ -281,10 +288,13 @@ impl Outputs {
         {
             claimed.identical = same;
             if !same {
-                return Err(Failure::input(format!(
-                    "'{}' exists already and differs from what would be written; choose another directory with --out, or allow it with --force-overwrite",
-                    claimed.target.display()
-                )));
+                return Err(Failure::new(
+                    ErrorCode::Output,
+                    format!(
+                        "'{}' exists already and differs from what would be written; choose another directory with --out, or allow it with --force-overwrite",
+                        claimed.target.display()
+                    ),
+                ));
             }
         }
         Ok(())
@@ -304,11 +314,14 @@ impl Outputs {
         if entries.len() > 1 {
             for journal in &mut journals {
                 journal.list(&entries).map_err(|error| {
-                    Failure::input(format!(
-                        "nothing can be written to '{}': {}; no output was changed",
-                        journal.directory.display(),
-                        description(&error)
-                    ))
+                    Failure::new(
+                        ErrorCode::Output,
+                        format!(
+                            "nothing can be written to '{}': {}; no output was changed",
+                            journal.directory.display(),
+                            description(&error)
+                        ),
+                    )
                 })?;
             }
         }
@@ -324,11 +337,14 @@ impl Outputs {
                 Ok(kept) => done.push((target, kept)),
                 Err(error) => {
                     take_back(done);
-                    return Err(Failure::input(format!(
-                        "the {what} cannot be put in place as '{}': {}; no output was changed",
-                        target.display(),
-                        description(&error)
-                    )));
+                    return Err(Failure::new(
+                        ErrorCode::Output,
+                        format!(
+                            "the {what} cannot be put in place as '{}': {}; no output was changed",
+                            target.display(),
+                            description(&error)
+                        ),
+                    ));
                 }
             }
         }

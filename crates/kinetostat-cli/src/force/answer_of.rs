@@ -12,6 +12,7 @@ use crate::force::cut::{Cut, Part, Way};
 use crate::force::findings::findings;
 use crate::force::tool::CutTool;
 use crate::ui::failure::{Answer, Failure};
+use kinetostat_diagnostic::ErrorCode;
 
 /// Angles per tooth at which the force is computed, at least and at most.
 const ANGLES_PER_TOOTH: (usize, usize) = (12, 360);
@@ -46,7 +47,10 @@ pub(crate) fn answer_of(
     let tool = &of_tool.tool;
     let milling = Milling::new(tool, &applied.law, &cut.engagement, cut.feed).turning(cut.rotation);
     let chip = milling.chip_thickness().ok_or_else(|| {
-        Failure::input("nothing is cut: the tool rises faster than it goes ahead")
+        Failure::new(
+            ErrorCode::Value,
+            "nothing is cut: the tool rises faster than it goes ahead",
+        )
     })?;
     let revolution = milling.revolution_at(angles_per_tooth(tool, cut));
     let mean = milling.mean();

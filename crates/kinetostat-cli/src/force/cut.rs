@@ -1,5 +1,6 @@
 //! The cut: which part of the tool is in the material, how fast it goes, and what the spindle gives.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::f64::consts::{PI, TAU};
 
 use kinetostat::number::smaller;
@@ -76,12 +77,17 @@ pub(crate) struct Straight {
 /// Returns the engagement of the tool by width, depth and side.
 pub(crate) fn straight(tool: &Tool, args: &CutArgs) -> Answer<Straight> {
     let given = |option: &str, value: Option<f64>, what: &str| -> Answer<f64> {
-        let value = value
-            .ok_or_else(|| Failure::input(format!("the cut needs {option}: {what}, in mm")))?;
+        let value = value.ok_or_else(|| {
+            Failure::new(
+                ErrorCode::Missing,
+                format!("the cut needs {option}: {what}, in mm"),
+            )
+        })?;
         match value == 0.0 {
-            true => Err(Failure::input(format!(
-                "{option} 0 cuts nothing; give {what}"
-            ))),
+            true => Err(Failure::new(
+                ErrorCode::Value,
+                format!("{option} 0 cuts nothing; give {what}"),
+            )),
             false => Ok(value),
         }
     };
@@ -96,9 +102,12 @@ pub(crate) fn straight(tool: &Tool, args: &CutArgs) -> Answer<Straight> {
         _ => tool.diameter_mm(),
     };
     if width_mm > across_mm * (1.0 + 1e-9) {
-        return Err(Failure::input(format!(
-            "--width-mm: width of cut of {width_mm} mm; expected at most the {across_mm} mm of the tool, which is a slot"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--width-mm: width of cut of {width_mm} mm; expected at most the {across_mm} mm of the tool, which is a slot"
+            ),
+        ));
     }
     within("width of cut", width_mm, 1e-6..=2.0 * across_mm, "mm")?;
     let rotation = match args.counter_clockwise {
@@ -134,13 +143,15 @@ pub(crate) fn cut_of(tool: &Tool, args: &CutArgs, spindle: &SpindleArgs) -> Answ
         .transpose()?;
     let spindle = curve(spindle)?;
     if spindle.is_some() && rpm.is_none() {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Missing,
             "what the spindle gives depends on its speed: --spindle-power-w needs --rpm",
         ));
     }
     let feed = feed(tool, args, rpm)?;
     if feed.down_mm != 0.0 && of.part != Part::Slot {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Unused,
             "--down-feed-per-tooth-mm is for slots: at a side cut it depends on what the floor looks like. Make --width-mm the diameter",
         ));
     }
@@ -180,7 +191,8 @@ fn side(args: &CutArgs, rotation: Rotation) -> Answer<(Part, Way)> {
         (None, true, _) => climb_at,
         (None, false, true) => other,
         (None, false, false) => {
-            return Err(Failure::input(
+            return Err(Failure::new(
+                ErrorCode::Missing,
                 "on which side is the part? Give --part left or --part right as seen along the feed, or --climb or --conventional (or make --width-mm the diameter: a slot)",
             ));
         }
@@ -197,7 +209,7 @@ fn feed(tool: &Tool, args: &CutArgs, rpm: Option<f64>) -> Answer<Feed> {
         (Some(per_tooth), _) => per_tooth,
         (None, Some(per_min)) => {
             let rpm = rpm.ok_or_else(|| {
-                Failure::input(
+                Failure::new(ErrorCode::Missing,
                     "--feed-mm-per-min needs --rpm: how far the tool goes from tooth to tooth depends on both",
                 )
             })?;
@@ -205,13 +217,15 @@ fn feed(tool: &Tool, args: &CutArgs, rpm: Option<f64>) -> Answer<Feed> {
             within("feed", per_min, 0.0..=most, "mm/min")? / (tool.teeth() as f64 * rpm)
         }
         (None, None) => {
-            return Err(Failure::input(
+            return Err(Failure::new(
+                ErrorCode::Missing,
                 "how fast? Give --feed-per-tooth-mm, or --feed-mm-per-min with --rpm",
             ));
         }
     };
     if per_tooth == 0.0 {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Value,
             "a feed of 0 cuts nothing; give one above it",
         ));
     }

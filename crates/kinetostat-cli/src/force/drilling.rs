@@ -1,5 +1,6 @@
 //! `kinetostat force --drill`: thrust and torque of a drill.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::f64::consts::PI;
 
 use kinetostat_cutting::{Drill, Material};
@@ -59,7 +60,10 @@ pub(crate) fn run(args: &ForceArgs, material: &Material, files: ClaimedFiles) ->
 fn answer(args: &ForceArgs, material: &Material) -> Answer<DrillAnswer> {
     let of = &args.steady;
     let (Some(diameter_mm), Some(feed)) = (args.tool.diameter_mm, of.feed_per_turn_mm) else {
-        return Err(Failure::input("the drill needs --diameter-mm D, in mm"));
+        return Err(Failure::new(
+            ErrorCode::Missing,
+            "the drill needs --diameter-mm D, in mm",
+        ));
     };
     within("feed per turn", feed, 1e-6..=100.0, "mm")?;
     let lips = of.lips.unwrap_or(2);
@@ -76,7 +80,8 @@ fn answer(args: &ForceArgs, material: &Material) -> Answer<DrillAnswer> {
     let speed = rpm.map(|rpm| 1e-3 * PI * diameter_mm * rpm);
     let corrected = match (args.material.correct_speed, speed) {
         (true, None) => {
-            return Err(Failure::input(
+            return Err(Failure::new(
+                ErrorCode::Missing,
                 "--correct-speed needs --rpm: the cutting speed follows from it",
             ));
         }

@@ -1,5 +1,6 @@
 //! Material: the library and a file of the user's, and the factors by which the cut differs from the test.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat_cutting::{Applied, Coolant, Correction, CuttingMaterial, Material, Materials};
@@ -23,7 +24,8 @@ pub(crate) fn materials(files: &InputFiles, own: Option<&Path>) -> Answer<Materi
 /// The material that was named.
 pub(crate) fn material(materials: &Materials, args: &MaterialArgs) -> Answer<Material> {
     let Some(name) = &args.material else {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Missing,
             "what is cut? Give --material NAME; `kinetostat force --list-materials` shows the names",
         ));
     };
@@ -32,7 +34,7 @@ pub(crate) fn material(materials: &Materials, args: &MaterialArgs) -> Answer<Mat
             true => format!("; {}", error.expected),
             false => ";".to_owned(),
         };
-        Failure::input(format!(
+        Failure::new(ErrorCode::UnknownName, format!(
             "--material: {}{near} `kinetostat force --list-materials` shows them, and --materials FILE.toml takes your own",
             error.found
         ))

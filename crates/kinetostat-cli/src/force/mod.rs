@@ -18,6 +18,7 @@ pub(crate) mod tool;
 mod trust;
 mod turning;
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::PathBuf;
 
 use kinetostat_cutting::{ForceLaw, Law, Material, Materials};
@@ -143,7 +144,8 @@ pub(crate) fn run(args: &ForceArgs, given: &Given) -> Answer<()> {
         };
     }
     if args.steady.feed_per_turn_mm.is_some() {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Unused,
             "--feed-per-turn-mm is the feed of --drill and --turning; a milling cut has --feed-per-tooth-mm, or --feed-mm-per-min with --rpm",
         ));
     }
@@ -152,7 +154,10 @@ pub(crate) fn run(args: &ForceArgs, given: &Given) -> Answer<()> {
     let cut = cut_of(&tool.tool, &args.cut, &args.spindle)?;
     let speed = match args.material.correct_speed {
         true => Some(cut.speed_m_per_min().ok_or_else(|| {
-            Failure::input("--correct-speed needs --rpm: the cutting speed follows from it")
+            Failure::new(
+                ErrorCode::Missing,
+                "--correct-speed needs --rpm: the cutting speed follows from it",
+            )
         })?),
         false => None,
     };

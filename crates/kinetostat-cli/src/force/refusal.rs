@@ -3,6 +3,7 @@
 use kinetostat_cutting::CutError;
 
 use crate::ui::failure::Failure;
+use kinetostat_diagnostic::ErrorCode;
 
 /// Quantities of the library and the options that give them.
 const OPTIONS: [(&str, &str); 30] = [
@@ -41,15 +42,18 @@ const OPTIONS: [(&str, &str); 30] = [
 /// An error of the library as the command says it: with the option, or with file and line.
 pub(crate) fn refused(error: &CutError) -> Failure {
     if error.file.is_some() {
-        return Failure::input(error);
+        return Failure::new(ErrorCode::Value, error);
     }
     let option = OPTIONS.iter().find(|(name, _)| *name == error.quantity);
     match option {
-        Some((_, option)) => Failure::input(format!(
-            "{option}: {} of {}; expected {}",
-            error.quantity, error.found, error.expected
-        )),
-        None => Failure::input(error),
+        Some((_, option)) => Failure::new(
+            ErrorCode::Value,
+            format!(
+                "{option}: {} of {}; expected {}",
+                error.quantity, error.found, error.expected
+            ),
+        ),
+        None => Failure::new(ErrorCode::Value, error),
     }
 }
 
@@ -65,9 +69,12 @@ pub(crate) fn within(
     }
     let known = OPTIONS.iter().find(|(name, _)| *name == quantity);
     let option = known.map_or(quantity, |(_, option)| option);
-    Err(Failure::input(format!(
-        "{option}: {quantity} of {value} {unit}; expected {} to {} {unit}",
-        bounds.start(),
-        bounds.end()
-    )))
+    Err(Failure::new(
+        ErrorCode::Value,
+        format!(
+            "{option}: {quantity} of {value} {unit}; expected {} to {} {unit}",
+            bounds.start(),
+            bounds.end()
+        ),
+    ))
 }

@@ -1,5 +1,6 @@
 //! The tool of a cut: by its sizes, or from a table of tools.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::PathBuf;
 
 use kinetostat_cutting::{RunOut, Shape, Tool, ToolTable};
@@ -45,11 +46,14 @@ fn from_table(
     let table = tool_table(files, path)?;
     let numbers = || -> Vec<String> { table.entries().map(|e| e.number.to_string()).collect() };
     if number.is_none() {
-        return Err(Failure::input(format!(
-            "--tool-table needs --tool-number T: which of the tools of '{}' cuts? It has {}",
-            path.display(),
-            numbers().join(", ")
-        )));
+        return Err(Failure::new(
+            ErrorCode::Missing,
+            format!(
+                "--tool-table needs --tool-number T: which of the tools of '{}' cuts? It has {}",
+                path.display(),
+                numbers().join(", ")
+            ),
+        ));
     }
     let number = number.and_then(|number| u32::try_from(number).ok());
     let entry = number.and_then(|number| table.entries().find(|e| e.number == number));
@@ -58,10 +62,13 @@ fn from_table(
             none if none.is_empty() => "it has no tools".to_owned(),
             some => format!("it has {}", some.join(", ")),
         };
-        Failure::input(format!(
-            "--tool-number: that tool is not in the table of tools '{}'; {known}",
-            path.display()
-        ))
+        Failure::new(
+            ErrorCode::UnknownName,
+            format!(
+                "--tool-number: that tool is not in the table of tools '{}'; {known}",
+                path.display()
+            ),
+        )
     })?;
     Ok(CutTool {
         tool: entry.tool,
@@ -77,7 +84,8 @@ fn from_table(
 
 fn by_sizes(args: &ToolArgs) -> Answer<CutTool> {
     let Some(word) = args.tool else {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Missing,
             "which tool? Give --tool flat, ball, bull or face with --diameter-mm and --teeth, or --tool-table FILE.toml with --tool-number",
         ));
     };
@@ -86,7 +94,10 @@ fn by_sizes(args: &ToolArgs) -> Answer<CutTool> {
             None => "--diameter-mm D, in mm",
             Some(_) => "--teeth N",
         };
-        return Err(Failure::input(format!("the tool needs {missing}")));
+        return Err(Failure::new(
+            ErrorCode::Missing,
+            format!("the tool needs {missing}"),
+        ));
     };
     let tool = Tool::new(shape(word, args)?, diameter_mm, teeth)
         .and_then(|tool| tool.with_helix(args.helix_deg.unwrap_or(0.0).to_radians()))
@@ -129,10 +140,16 @@ fn shape(word: ShapeWord, args: &ToolArgs) -> Answer<Shape> {
         match (given, word == of) {
             (Some(value), true) => Ok(value),
             (None, false) => Ok(0.0),
-            (None, true) => Err(Failure::input(format!("--tool {name} needs {option}"))),
-            (Some(_), false) => Err(Failure::input(format!(
-                "{option} belongs to --tool {name} alone; leave it out, or change the shape"
-            ))),
+            (None, true) => Err(Failure::new(
+                ErrorCode::Missing,
+                format!("--tool {name} needs {option}"),
+            )),
+            (Some(_), false) => Err(Failure::new(
+                ErrorCode::Unused,
+                format!(
+                    "{option} belongs to --tool {name} alone; leave it out, or change the shape"
+                ),
+            )),
         }
     };
     let corner = only(

@@ -1,6 +1,7 @@
 //! `kinetostat force --turning`: the force on a turning tool.
 
 use kinetostat_cutting::{Material, Turning};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::Warning;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -54,7 +55,10 @@ pub(crate) fn run(args: &ForceArgs, material: &Material, files: ClaimedFiles) ->
 fn answer(args: &ForceArgs, material: &Material) -> Answer<TurningAnswer> {
     let of = &args.steady;
     let (Some(depth_mm), Some(feed)) = (args.cut.depth_mm, of.feed_per_turn_mm) else {
-        return Err(Failure::input("the cut needs --depth-mm AP, in mm"));
+        return Err(Failure::new(
+            ErrorCode::Missing,
+            "the cut needs --depth-mm AP, in mm",
+        ));
     };
     within("feed per turn", feed, 1e-6..=100.0, "mm")?;
     let approach_angle_deg = of.approach_angle_deg.unwrap_or(90.0);
@@ -62,13 +66,19 @@ fn answer(args: &ForceArgs, material: &Material) -> Answer<TurningAnswer> {
         .map_err(|error| refused(&error))?;
     let speed = of.speed_m_per_min;
     if let Some(speed) = speed.filter(|speed| !(1e-3..=1e5).contains(speed)) {
-        return Err(Failure::input(format!(
-            "--speed-m-per-min: cutting speed of {speed} m/min; expected 0.001 to 100000 m/min"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--speed-m-per-min: cutting speed of {speed} m/min; expected 0.001 to 100000 m/min"
+            ),
+        ));
     }
     let corrected = match (args.material.correct_speed, speed) {
         (true, None) => {
-            return Err(Failure::input("--correct-speed needs --speed-m-per-min"));
+            return Err(Failure::new(
+                ErrorCode::Missing,
+                "--correct-speed needs --speed-m-per-min",
+            ));
         }
         (true, speed) => speed,
         (false, _) => None,

@@ -2,6 +2,7 @@
 
 use kinetostat_analysis::vibration::{MeasuredModes, VibratingMachine};
 use kinetostat_chatter::MeasuredResponse;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_dynamics::Damping;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -75,9 +76,10 @@ pub(crate) fn answer(
         )
     });
     if let (Some(words), false) = (&against, args.scale.is_empty()) {
-        return Err(Failure::input(format!(
-            "--scale: {words}. Turn it round, and measure again if you do not know which"
-        )));
+        return Err(Failure::new(
+            ErrorCode::FileForm,
+            format!("--scale: {words}. Turn it round, and measure again if you do not know which"),
+        ));
     }
     let beside = |(i, mode): (usize, &kinetostat_chatter::FittedMode)| {
         let at = pairs.iter().position(|pair| pair.measured == i);
@@ -100,10 +102,13 @@ pub(crate) fn answer(
         all.iter().find(|mode| mode.model_mode.is_none()),
         args.scale.is_empty(),
     ) {
-        return Err(Failure::input(format!(
-            "--scale: the measured mode at {:.2} Hz resembles none of the model's (within a factor of 1.5 of its frequency): nothing is scaled to it. Look at `kinetostat modes`, or ask for fewer modes or a narrower band",
-            lone.frequency_hz
-        )));
+        return Err(Failure::new(
+            ErrorCode::NoMatch,
+            format!(
+                "--scale: the measured mode at {:.2} Hz resembles none of the model's (within a factor of 1.5 of its frequency): nothing is scaled to it. Look at `kinetostat modes`, or ask for fewer modes or a narrower band",
+                lone.frequency_hz
+            ),
+        ));
     }
     let mut doubts: Vec<String> = against.into_iter().collect();
     doubts.extend(odd_amplitude(&all, doubts.is_empty()));

@@ -1,5 +1,6 @@
 //! Measured responses, to be drawn beside the model's.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat_chatter::{
@@ -28,7 +29,7 @@ pub(crate) fn read(files: &InputFiles, path: &Path) -> Answer<Measured> {
         true => read_universal(&text).map(|file| file.responses),
         false => read_columns(&with_decimal_points(&text)),
     };
-    let failed = |error| Failure::input(format!("{}: {error}", path.display()));
+    let failed = |error| Failure::new(ErrorCode::FileForm, format!("{}: {error}", path.display()));
     Ok(Measured {
         responses: found.map_err(failed)?,
         turning: match universal {
@@ -80,5 +81,5 @@ pub(crate) fn warnings(file: &Measured) -> Vec<Warning> {
 
 /// Converts an error of a measurement.
 pub(crate) fn of_measurement(error: ChatterError) -> Failure {
-    Failure::input(format!("measured responses: {error}"))
+    Failure::new(ErrorCode::FileForm, format!("measured responses: {error}"))
 }

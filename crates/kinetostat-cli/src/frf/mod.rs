@@ -11,6 +11,7 @@ mod text;
 
 use kinetostat::number::larger;
 use kinetostat_analysis::vibration::VibratingMachine;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_dynamics::{Damping, Quantity, Receptance};
 use kinetostat_machining::{Warning, WarningCode};
 
@@ -61,13 +62,17 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
     let receptance = response.over(&frequencies).map_err(subject::refused)?;
     let finite = |m: &Receptance| m.iter().all(|v| v.re.is_finite() && v.im.is_finite());
     if let Some(at) = receptance.iter().position(|m| !finite(m)) {
-        return Err(Failure::unanswered(format!(
-            "the tool has no finite response at {} Hz: a direction is free there, or a mode without damping",
-            frequencies[at]
-        )));
+        return Err(Failure::new(
+            ErrorCode::FreeDirection,
+            format!(
+                "the tool has no finite response at {} Hz: a direction is free there, or a mode without damping",
+                frequencies[at]
+            ),
+        ));
     }
     if args.outputs.plot.is_some() && !text::moves(&entries, &receptance) {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::RigidDirection,
             "--plot: the tool moves along none of these axes (it is held, or the machine cannot move it there), and there is nothing to draw",
         ));
     }
@@ -183,12 +188,14 @@ pub(crate) fn makes_sense(
 ) -> Answer<()> {
     let is_drawn = args.outputs.plot.is_some();
     if let ([one], true) = (frequencies, is_drawn || args.fit.is_some()) {
-        return Err(Failure::input(format!(
-            "--frequencies names one frequency, {one} Hz; --plot and --fit need a band"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Conflict,
+            format!("--frequencies names one frequency, {one} Hz; --plot and --fit need a band"),
+        ));
     }
     if is_drawn && !entries.iter().any(|(to, from)| *to < 3 && *from < 3) {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Unused,
             "--plot draws motions along axes by forces along axes; there is none among --to and --from",
         ));
     }
@@ -198,20 +205,29 @@ pub(crate) fn makes_sense(
 /// Evenly spaced frequencies, Hz.
 pub(crate) fn frequencies(of: &[f64]) -> Answer<Vec<f64>> {
     let &[low, high, count] = of else {
-        return Err(Failure::input("--frequencies needs LO HI N"));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            "--frequencies needs LO HI N",
+        ));
     };
     if count == 1.0 && low == high && low >= 0.0 && low.is_finite() {
         return Ok(vec![low]);
     }
     if !(low >= 0.0 && high > low && high.is_finite()) {
-        return Err(Failure::input(format!(
-            "--frequencies {low} {high}: frequencies in Hz are needed, the first not below 0 and the second above the first"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--frequencies {low} {high}: frequencies in Hz are needed, the first not below 0 and the second above the first"
+            ),
+        ));
     }
     if !(2.0..=MOST).contains(&count) || count.fract() != 0.0 {
-        return Err(Failure::input(format!(
-            "--frequencies: N is {count}; a whole number from 2 to {MOST} is needed, or 1 with the same frequency twice"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--frequencies: N is {count}; a whole number from 2 to {MOST} is needed, or 1 with the same frequency twice"
+            ),
+        ));
     }
     let count = count as usize;
     let step = (high - low) / (count - 1) as f64;

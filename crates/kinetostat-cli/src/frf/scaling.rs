@@ -1,5 +1,6 @@
 //! Numbers of the model scaled to measured modes.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat::number::larger;
@@ -73,10 +74,13 @@ pub(crate) fn scaled(
     let parameters = within_bounds(&before, args.scale_within)?;
     let left = measured.fit.misfit.iter().copied().fold(0.0, larger);
     if left.is_nan() || left > NO_MODES {
-        return Err(Failure::input(format!(
-            "--scale: the fit leaves {:.0} % of a measured curve: these are no modes that a model could be scaled to. Ask for more modes or a narrower band, or measure again",
-            100.0 * left
-        )));
+        return Err(Failure::new(
+            ErrorCode::NoMatch,
+            format!(
+                "--scale: the fit leaves {:.0} % of a measured curve: these are no modes that a model could be scaled to. Ask for more modes or a narrower band, or measure again",
+                100.0 * left
+            ),
+        ));
     }
     let of_damping = before.len() > machine_count;
     let machine_of = |values: &[f64]| -> Result<(VibratingMachine, Option<Vec<f64>>), Lost> {
@@ -130,21 +134,28 @@ pub(crate) fn scaled(
 fn check_options(args: &FrfArgs) -> Answer<()> {
     let within = args.scale_within;
     if !(within > 1.0 && within <= 1e3) {
-        return Err(Failure::input(format!(
-            "--scale-within is {within}; a factor above 1 and of at most 1000 is needed"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!("--scale-within is {within}; a factor above 1 and of at most 1000 is needed"),
+        ));
     }
     let known = args.frequencies_known_to;
     if !(known > 0.0 && known < 1.0) {
-        return Err(Failure::input(format!(
-            "--frequencies-known-to is {known}; a share between 0 and 1 is needed (0.01 is 1 %)"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--frequencies-known-to is {known}; a share between 0 and 1 is needed (0.01 is 1 %)"
+            ),
+        ));
     }
     let damping_known = args.damping_known_to;
     if !(damping_known > 0.0 && damping_known < 1.0) {
-        return Err(Failure::input(format!(
-            "--damping-known-to is {damping_known}; a share between 0 and 1 is needed (0.2 is 20 %)"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--damping-known-to is {damping_known}; a share between 0 and 1 is needed (0.2 is 20 %)"
+            ),
+        ));
     }
     Ok(())
 }
@@ -153,10 +164,13 @@ fn check_options(args: &FrfArgs) -> Answer<()> {
 fn within_bounds(before: &[DampingNumber], within: f64) -> Answer<Vec<Parameter>> {
     let bounded = |own: &DampingNumber| {
         if own.value <= 0.0 || own.value.is_nan() {
-            return Err(Failure::input(format!(
-                "--scale {}: it is {}, and numbers above zero are scaled",
-                own.path, own.value
-            )));
+            return Err(Failure::new(
+                ErrorCode::Value,
+                format!(
+                    "--scale {}: it is {}, and numbers above zero are scaled",
+                    own.path, own.value
+                ),
+            ));
         }
         Ok(Parameter {
             name: own.path.clone(),

@@ -1,5 +1,6 @@
 //! Common part of both imports of links: remarks, the table of the model file, and the answer.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use kinetostat_links::{
@@ -20,7 +21,7 @@ use crate::ui::{json, numbers};
 
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
-        Self::input(error)
+        Self::new(ErrorCode::FileForm, error)
     }
 }
 
@@ -144,12 +145,15 @@ fn refuse_what_is_none(file: &Path, checked: &StiffnessCheck) -> Answer<()> {
         .then(|| checked.findings.iter().find(|f| f.message.contains("rank")))
         .flatten();
     match refused.or(loose) {
-        Some(finding) => Err(Failure::input(format!(
-            "{}: this is no stiffness that a link can have: {}; {}",
-            file.display(),
-            finding.message,
-            finding.help
-        ))),
+        Some(finding) => Err(Failure::new(
+            ErrorCode::FileForm,
+            format!(
+                "{}: this is no stiffness that a link can have: {}; {}",
+                file.display(),
+                finding.message,
+                finding.help
+            ),
+        )),
         None => Ok(()),
     }
 }

@@ -1,5 +1,6 @@
 //! The frame and the units of a mesh.
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_links::{Units, axes_from};
 use nalgebra::{Rotation3, Vector3};
 
@@ -20,7 +21,7 @@ pub(crate) fn axes(mesh: &MeshArgs) -> Answer<Rotation3<f64>> {
         vector(&mesh.y_axis, Vector3::y()),
     );
     axes_from(&x, &y).ok_or_else(|| {
-        Failure::input("--x-axis and --y-axis span no frame; give two directions that are not parallel and not zero")
+        Failure::new(ErrorCode::Value, "--x-axis and --y-axis span no frame; give two directions that are not parallel and not zero")
     })
 }
 
@@ -29,17 +30,21 @@ pub(crate) fn units(mesh: &MeshArgs) -> Answer<Option<Units>> {
         None => Ok(None),
         Some(word) => match Units::named(word) {
             Some(units) => Ok(Some(units)),
-            None => Err(Failure::input(format!(
-                "--units: '{word}' is not known; there are: {}",
-                Units::names().replace('_', "-")
-            ))),
+            None => Err(Failure::new(
+                ErrorCode::UnknownName,
+                format!(
+                    "--units: '{word}' is not known; there are: {}",
+                    Units::names().replace('_', "-")
+                ),
+            )),
         },
     }
 }
 
 pub(crate) fn needed_units(mesh: &MeshArgs) -> Answer<Units> {
     units(mesh)?.ok_or_else(|| {
-        Failure::input(
+        Failure::new(
+            ErrorCode::Missing,
             "the file does not say its units: say --units, as in --units n-mm (N, mm and N mm)",
         )
     })

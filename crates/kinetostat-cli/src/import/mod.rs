@@ -9,6 +9,7 @@ mod link_arguments;
 mod mesh;
 mod urdf;
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_links::{
     CondensationRequest, Condensed, DIRECTIONS, FreeTest, Identified, Nodes, SYMMETRIC_TO,
     Superelement, Text, Tie, check_stiffness, condense, free_test, identify, read_displacements,
@@ -68,7 +69,7 @@ fn displacements(args: &DisplacementsArgs) -> Answer<()> {
             found.insignificant.len()
         ));
         found.filtered().ok_or_else(|| {
-            Failure::input(format!(
+            Failure::new(ErrorCode::Unused, format!(
                 "{}: without the entries that the noise hides the compliance is not positive definite; leave --filter out",
                 text.name()
             ))
@@ -202,7 +203,8 @@ fn matrix(args: &MatrixArgs) -> Answer<()> {
 fn plain(args: &MatrixArgs, remarks: &mut Remarks) -> Answer<(Matrix6<f64>, String)> {
     let text = text_or_table(&args.file)?;
     if args.mesh.x_axis.is_some() || args.mesh.y_axis.is_some() || args.mesh.nodes.is_some() {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Missing,
             "--nodes, --x-axis and --y-axis belong to a matrix of a mesh: say --interface too; a 6 x 6 has the lines reference_point_mm, x_axis and y_axis",
         ));
     }
@@ -215,12 +217,15 @@ fn plain(args: &MatrixArgs, remarks: &mut Remarks) -> Answer<(Matrix6<f64>, Stri
                 .is_none()
                 .then(|| read_superelement(&text, None, None));
             if let Some(Ok(element)) = many {
-                return Err(Failure::input(format!(
-                    "{}: this is a matrix of {} degrees of freedom ({}); say --interface NODES, --fixed NODES and --units to condense it",
-                    text.name(),
-                    element.dofs.len(),
-                    element.format
-                )));
+                return Err(Failure::new(
+                    ErrorCode::Missing,
+                    format!(
+                        "{}: this is a matrix of {} degrees of freedom ({}); say --interface NODES, --fixed NODES and --units to condense it",
+                        text.name(),
+                        element.dofs.len(),
+                        element.format
+                    ),
+                ));
             }
             return Err(error.into());
         }
@@ -284,19 +289,25 @@ fn reduced(
     };
     let share = element.antisymmetric_share;
     if share > SYMMETRIC_TO && !args.symmetrise {
-        return Err(Failure::input(format!(
-            "{}: the matrix is not symmetric, its anti-symmetric share is {}; a body's stiffness is: if this is noise, say --symmetrise",
-            text.name(),
-            formatter::short(share)
-        )));
+        return Err(Failure::new(
+            ErrorCode::FileForm,
+            format!(
+                "{}: the matrix is not symmetric, its anti-symmetric share is {}; a body's stiffness is: if this is noise, say --symmetrise",
+                text.name(),
+                formatter::short(share)
+            ),
+        ));
     }
     symmetry(share, args.symmetrise, remarks);
     let free = free_test(&element, &nodes, units);
     if request.fixed.is_empty() && free.is_free() && free.resistance.iter().any(Option::is_some) {
-        return Err(Failure::input(format!(
-            "{}: the body is free: rigid motions meet no resistance, so its end has no stiffness; say which nodes are held at the other end: --fixed NODES",
-            text.name()
-        )));
+        return Err(Failure::new(
+            ErrorCode::Missing,
+            format!(
+                "{}: the body is free: rigid motions meet no resistance, so its end has no stiffness; say which nodes are held at the other end: --fixed NODES",
+                text.name()
+            ),
+        ));
     }
     let found = condense(&element, &nodes, &request)?;
     remark_reduction(&element, &found, &free, &request, remarks);

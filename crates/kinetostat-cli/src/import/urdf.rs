@@ -1,5 +1,6 @@
 //! `kinetostat import urdf`: a model from a robot description.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -142,9 +143,12 @@ fn options(args: &UrdfArgs, inputs: &mut Vec<std::path::PathBuf>) -> Answer<Urdf
 /// `joint_5=30deg`, `rail=1200mm`: an angle in rad or a distance in m.
 fn home_of(written: &str) -> Answer<(String, (MotionKind, f64))> {
     let wrong = || {
-        Failure::input(format!(
-            "--home: '{written}' is not JOINT=VALUE with a unit; write joint_5=30deg, joint_5=0.5rad, rail=1200mm or rail=1.2m"
-        ))
+        Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--home: '{written}' is not JOINT=VALUE with a unit; write joint_5=30deg, joint_5=0.5rad, rail=1200mm or rail=1.2m"
+            ),
+        )
     };
     let (joint, value) = written.rsplit_once('=').ok_or_else(wrong)?;
     let units = [

@@ -4,6 +4,7 @@
 //! state it they must agree.
 
 use kinetostat::{Mechanism, Pose};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::Template;
 use kinetostat_machining::{Placement, ProgramLoad, ToolGiven, Warning, WarningCode};
 
@@ -162,7 +163,10 @@ fn apart(a: &Pose, b: &Pose) -> bool {
 }
 
 fn twice(of_template: &str, of_job: &str) -> Failure {
-    Failure::input(format!(
-        "stated twice, and not the same: {of_template} in the template and {of_job} of the job; leave one of them out"
-    ))
+    Failure::new(
+        ErrorCode::Conflict,
+        format!(
+            "stated twice, and not the same: {of_template} in the template and {of_job} of the job; leave one of them out"
+        ),
+    )
 }

@@ -1,6 +1,7 @@
 //! Endings of written programs: the ending of another language is refused before a run, for a program with it would be read as
 //! that language. An ending that no language is known by is anybody's own.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat_formats::FileForm;
@@ -28,14 +29,17 @@ pub(crate) fn refuse_other_ending(written: Written<'_>, out: &Path) -> Answer<()
         return Ok(());
     }
     let fitting = own.map_or_else(|| form.ending().to_owned(), lower);
-    Err(Failure::input(format!(
-        "'{}': .{} is the ending of another language, and the {} is {}: name it '{}'",
-        out.display(),
-        ending.unwrap_or_default().to_string_lossy(),
-        written.what,
-        form.title(),
-        out.with_extension(fitting).display()
-    )))
+    Err(Failure::new(
+        ErrorCode::Output,
+        format!(
+            "'{}': .{} is the ending of another language, and the {} is {}: name it '{}'",
+            out.display(),
+            ending.unwrap_or_default().to_string_lossy(),
+            written.what,
+            form.title(),
+            out.with_extension(fitting).display()
+        ),
+    ))
 }
 
 /// Refuses such names of the programs that a run writes.

@@ -1,6 +1,7 @@
 //! The free turn of a round tool, chosen along the whole path for the arm of a run.
 
 use kinetostat::Mechanism;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{
     Placement, RunInputs, TipCompliance, TurnChoice, TurnCriterion, TurnError, TurnTask,
     choose_turns, with_turns,
@@ -55,7 +56,7 @@ pub(crate) fn only_tool(setting: &Setting, path: &ToolPath) -> Answer<Option<u32
     match used.as_slice() {
         [] => Ok(None),
         [(only, _)] => Ok(Some(*only)),
-        [(first, _), (second, line), ..] => Err(setting.within(Failure::input(format!(
+        [(first, _), (second, line), ..] => Err(setting.within(Failure::new(ErrorCode::ProgramUnsuited, format!(
             "line {line}: the tool {second} moves here, and the tool {first} before: --free-turn (free_turn under [robot]) is for programs of one tool. Divide the program where the tool changes and run each part by itself ([[tools]] of job and template may stay), or leave the free turn out"
         )))),
     }
@@ -69,7 +70,7 @@ pub(crate) fn chosen(
     placement: Placement,
 ) -> Answer<FreeTurn> {
     if path.moves.iter().any(|motion| motion.tool_turn.is_some()) {
-        return Err(setting.within(Failure::input(
+        return Err(setting.within(Failure::new(ErrorCode::ProgramUnsuited,
             "--free-turn is for programs of positions, and this one states the orientation of its tool: leave it out",
         )));
     }
@@ -109,7 +110,7 @@ fn softest(choice: &TurnChoice) -> String {
 /// A path without a way is a finding of the machine, not a fault of the question.
 fn refused(setting: &Setting, error: &TurnError) -> Failure {
     setting.within(match error {
-        TurnError::NoWay(_) | TurnError::Point { .. } => Failure::unanswered(error),
-        _ => Failure::input(error),
+        TurnError::NoWay(_) | TurnError::Point { .. } => Failure::new(ErrorCode::NoAnswer, error),
+        _ => Failure::new(ErrorCode::ProgramUnsuited, error),
     })
 }

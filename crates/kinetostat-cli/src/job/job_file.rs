@@ -1,5 +1,6 @@
 //! A job file that has been read, with its text for messages.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use kinetostat_machining::{Warning, WarningCode};
@@ -92,7 +93,7 @@ pub(crate) fn model_named(
             named.get_ref().clone(),
             job.map(JobFile::base).unwrap_or_default(),
         )),
-        (None, None) => Err(Failure::input(match job {
+        (None, None) => Err(Failure::new(ErrorCode::Missing, match job {
             Some(j) => format!(
                 "the job file '{}' names no model; write  model = \"orthoglide\"  at its top, or give --model MODEL",
                 j.path.display()

@@ -1,5 +1,6 @@
 //! Limits moved by `--limit NAME=VALUE` and by `[limits]` of a job file; options go over the job file.
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{Limit, Limits};
 
 use crate::job::job_file::JobFile;
@@ -15,15 +16,21 @@ pub(crate) fn limits(job: Option<&JobFile>, options: &[String]) -> Answer<Limits
     for text in options {
         let (limit, value) = of_option(text)?;
         if given.contains(&limit) {
-            return Err(Failure::input(format!(
-                "--limit '{text}': {} is given twice; keep one of the two",
-                limit.name
-            )));
+            return Err(Failure::new(
+                ErrorCode::Conflict,
+                format!(
+                    "--limit '{text}': {} is given twice; keep one of the two",
+                    limit.name
+                ),
+            ));
         }
         given.push(limit);
         limits.set(limit, value);
         if let Some(what) = no_tool(&limits) {
-            return Err(Failure::input(format!("--limit '{text}': {what}")));
+            return Err(Failure::new(
+                ErrorCode::Value,
+                format!("--limit '{text}': {what}"),
+            ));
         }
     }
     Ok(limits)
@@ -37,10 +44,13 @@ pub(crate) fn refuse_limits_but(used: &[&str], options: &[String], why: &str) ->
     for text in options {
         let (limit, _) = of_option(text)?;
         if !used.contains(&limit.name) {
-            return Err(Failure::input(format!(
-                "--limit '{text}' means nothing here, because {why}; leave it out. There are: {}",
-                used.join(", ")
-            )));
+            return Err(Failure::new(
+                ErrorCode::Unused,
+                format!(
+                    "--limit '{text}' means nothing here, because {why}; leave it out. There are: {}",
+                    used.join(", ")
+                ),
+            ));
         }
     }
     Ok(())
@@ -70,7 +80,8 @@ fn of_job(job: &JobFile, limits: &mut Limits) -> Answer<()> {
 }
 
 fn of_option(text: &str) -> Answer<(Limit, f64)> {
-    let refuse = |reason: &str| Failure::input(format!("--limit '{text}': {reason}"));
+    let refuse =
+        |reason: &str| Failure::new(ErrorCode::Value, format!("--limit '{text}': {reason}"));
     let unread = |reason: &str| {
         refuse(&format!(
             "{reason}; write NAME=VALUE, as in correction_mm=5. There are: {}",

@@ -1,6 +1,7 @@
 //! The load along a program.
 
 use kinetostat::Wrench;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{CornerLoad, CuttingLoad, LoadAxes, ProgramLoad};
 use nalgebra::Vector3;
 
@@ -39,7 +40,8 @@ pub(crate) fn load(
         || table.force_n.is_some()
         || table.moment_n_m.is_some();
     if flags.load_axes.is_some() && !has_force {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Unused,
             "--load-axes are the axes of a force or moment, and the load has none: add --force or --moment, or leave it out",
         ));
     }
@@ -139,9 +141,12 @@ fn possible(cutting: CuttingLoad) -> Answer<()> {
         .into_iter()
         .find(|part| !(-LARGEST..=LARGEST).contains(part))
     {
-        Some(part) => Err(Failure::input(format!(
-            "a part of the load on the tool is {part:e} N or N m; no more than {LARGEST:e} is possible: write the force in N and the moment in N m"
-        ))),
+        Some(part) => Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "a part of the load on the tool is {part:e} N or N m; no more than {LARGEST:e} is possible: write the force in N and the moment in N m"
+            ),
+        )),
         None => Ok(()),
     }
 }

@@ -1,5 +1,6 @@
 //! The machine of a run: model, deviations, tool, placement and load, from a job file and options.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -157,7 +158,8 @@ pub(crate) fn machine_setup(
     let load = load(job, job.map(|j| &j.job.load), flags)?;
     let weight = weight(job, flags)?;
     if frames.is_some_and(|f| f.axis_is_open && f.states_orientation) && load.turns() {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Missing,
             "this load turns with feed and tool, and the program does not say along which axis of its frame the tool lies: at KUKA that is x in some cells and z in others. State it, from the tip to the holder: --tool-axis -x or -z, or tool_axis under [robot]",
         ));
     }
@@ -304,7 +306,7 @@ fn weight(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<WeightCorrection
     let touch_off = |places: Vec<[f64; 3]>| {
         TouchOff::at(places).map_err(|error| match (job, places_in_job, &flags.touch_off) {
             (Some(j), Some(at), None) => j.error(at, &error.to_string(), help),
-            _ => Failure::input(format!("{error}; {help}")),
+            _ => Failure::new(ErrorCode::ProgramUnsuited, format!("{error}; {help}")),
         })
     };
     let places = match (&flags.touch_off, places_in_job) {
@@ -321,7 +323,8 @@ fn weight(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<WeightCorrection
             let touched = touch_off(places.unwrap_or_default())?;
             Ok(WeightCorrection::TouchOff(touched))
         }
-        _ if places.is_some() && !goes_over => Err(Failure::input(
+        _ if places.is_some() && !goes_over => Err(Failure::new(
+            ErrorCode::Conflict,
             "places where the part was touched off are given (touch_off_mm under [load], --touch-off), and weight is not \"touch-off\"; write weight = \"touch-off\" under [load] or --weight touch-off, or leave the places out",
         )),
         Some(WeightWord::All) => Ok(WeightCorrection::All),

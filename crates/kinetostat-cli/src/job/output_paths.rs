@@ -1,5 +1,6 @@
 //! Output paths of a run, from options and the job file.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use kinetostat_formats::{Language, language_of};
@@ -172,12 +173,14 @@ pub(crate) fn output_paths(
 /// Refuses options of outputs that are not asked for.
 pub(crate) fn refuse_unused(flags: &ProgramArgs, targets: &OutputPaths) -> Answer<()> {
     if flags.language.is_some() && targets.report.is_none() && targets.pdf.is_none() {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Unused,
             "--language is the language of the reports, and none is asked for: add --report FILE or --pdf FILE",
         ));
     }
     match flags.all_points && targets.points.is_none() {
-        true => Err(Failure::input(
+        true => Err(Failure::new(
+            ErrorCode::Unused,
             "--all-points is about the table of points, and none is asked for: add --points FILE",
         )),
         false => Ok(()),
@@ -197,10 +200,13 @@ fn keeps_name(program: &Path, bytes: &[u8]) -> bool {
 pub(crate) fn in_folder(near: &Path, program: &Path, folder: &str) -> Answer<PathBuf> {
     let folder = near.with_file_name(folder);
     if folder.is_symlink() {
-        return Err(Failure::input(format!(
-            "'{}' is a symbolic link, and outputs do not follow links; name the output (--out), or remove the link",
-            folder.display()
-        )));
+        return Err(Failure::new(
+            ErrorCode::Output,
+            format!(
+                "'{}' is a symbolic link, and outputs do not follow links; name the output (--out), or remove the link",
+                folder.display()
+            ),
+        ));
     }
     Ok(folder.join(program.file_name().unwrap_or_default()))
 }

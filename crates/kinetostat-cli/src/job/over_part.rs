@@ -1,6 +1,7 @@
 //! Orientation of an arm's tool over the part.
 
 use kinetostat::Pose;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{Warning, WarningCode, beyond_tool_length};
 use kinetostat_program::Path as ToolPath;
 use nalgebra::UnitQuaternion;
@@ -23,9 +24,12 @@ pub(crate) fn over_part(turn: UnitQuaternion<f64>, tools: &[Pose]) -> Answer<Opt
         let to_holder = turn * (tool.inverse().translation.vector);
         let at = triple((1e3 * to_holder).into(), short);
         if to_holder.z < -LEVEL * to_holder.norm() {
-            return Err(Failure::input(format!(
-                "the tool points up: its flange lies at {at} mm from its tip, axes of the part, and parts are cut from above (z above 0). Correct tool_orientation, as in a_b_c_kuka_deg=0,0,180, or the sign of the tool's pose"
-            )));
+            return Err(Failure::new(
+                ErrorCode::Value,
+                format!(
+                    "the tool points up: its flange lies at {at} mm from its tip, axes of the part, and parts are cut from above (z above 0). Correct tool_orientation, as in a_b_c_kuka_deg=0,0,180, or the sign of the tool's pose"
+                ),
+            ));
         }
         if to_holder.norm() > 0.0 && to_holder.z <= LYING * to_holder.norm() {
             lies = Some(format!(

@@ -1,6 +1,7 @@
 //! Placement of the program in the machine, and orientation of the tool.
 
 use kinetostat::{Mechanism, Pose};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::Placement;
 use nalgebra::{UnitQuaternion, Vector3};
 use serde_spanned::Spanned;
@@ -81,9 +82,10 @@ fn origin_mm(
     let far = |x: f64| format!("{x:?} mm leads more than 10 km away; coordinates are in mm");
     if let Some(given) = &flags.part_origin_mm {
         return match too_far(given) {
-            Some(x) if x.is_finite() => {
-                Err(Failure::input(format!("--part-origin-mm: {}", far(x))))
-            }
+            Some(x) if x.is_finite() => Err(Failure::new(
+                ErrorCode::Value,
+                format!("--part-origin-mm: {}", far(x)),
+            )),
             _ => vector("--part-origin-mm", given),
         };
     }

@@ -1,6 +1,9 @@
 //! The program of a run, read and interpreted.
 
+use std::slice;
+
 use kinetostat::Directions;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_program::{
     Gcode, MachineProgram, Part, Path as ToolPath, Program, ProgramError, ReadOptions, Warning,
     faults, interpret,
@@ -10,7 +13,7 @@ use crate::job::expansion::advice::advice;
 use crate::job::robot::read_program::{RobotRead, read_robot};
 use crate::job::setting::Setting;
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::fault_list::fault_list_text;
+use crate::ui::fault_list::{Fault, fault_list_text};
 
 /// A program that was read, with its path.
 pub(crate) enum ReadProgram<'s> {
@@ -154,13 +157,22 @@ pub(crate) fn read_program(setting: &Setting) -> Answer<ReadProgram<'_>> {
         for fault in all.iter_mut().chain([&mut error]) {
             without_origin(setting, fault);
         }
-        let message = fault_list_text("lines", &error, &all, |fault| fault.reason.as_str());
+        let message = fault_list_text("lines", &error, &all);
         let (bytes, path) = (&setting.program, &setting.program_path);
         let first = match setting.flat {
             Some(_) => None,
             None => advice(bytes, path, &setting.reading, &all),
         };
-        let failure = Failure::input(first.unwrap_or_default() + &message);
+        let failure = Failure::new(
+            ErrorCode::ProgramRefused,
+            first.unwrap_or_default() + &message,
+        );
+        let each = if all.is_empty() {
+            slice::from_ref(&error)
+        } else {
+            &all
+        };
+        let failure = failure.with_faults(each.iter().map(Fault::diagnostic));
         setting.within(failure).of_program()
     })?;
     // A flat program has taken them where it was expanded.
@@ -170,7 +182,8 @@ pub(crate) fn read_program(setting: &Setting) -> Answer<ReadProgram<'_>> {
     }
     let states_none = path.moves.iter().all(|motion| motion.tool_turn.is_none());
     if setting.correct.directions() == Directions::ALL && states_none {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::ProgramUnsuited,
             "the program does not state how its tool stands (no rotary axis of the model turns with tool centre point control), so that its orientation cannot be corrected: leave out --correct pose (correct = \"pose\" under [robot])",
         ));
     }

@@ -1,5 +1,6 @@
 //! Settings that decide a run, except the machine: options have priority over the job file.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -403,7 +404,8 @@ fn free_turn(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<FreeTurnWord>
     let chosen = match (flags.turn.stiff_turn, flags.turn.free_turn) {
         (true, true) => FreeTurnWord::Stiff,
         (true, false) if in_job == FreeTurnWord::AsStated => {
-            return Err(Failure::input(
+            return Err(Failure::new(
+                ErrorCode::Missing,
                 "--stiff-turn says how the turn of the tool is chosen: give --free-turn, too (free_turn = \"stiff\" under [robot] says both)",
             ));
         }
@@ -412,7 +414,8 @@ fn free_turn(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<FreeTurnWord>
         (false, _) => in_job,
     };
     match (chosen, &flags.turn.turn_plot) {
-        (FreeTurnWord::AsStated, Some(_)) => Err(Failure::input(
+        (FreeTurnWord::AsStated, Some(_)) => Err(Failure::new(
+            ErrorCode::Missing,
             "--turn-plot draws the turn of the tool that is chosen along the path: give --free-turn, too (free_turn = \"choose\" under [robot])",
         )),
         _ => Ok(chosen),
@@ -427,13 +430,16 @@ pub(crate) fn program_path(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer
             .map(JobFile::base)
             .unwrap_or_default()
             .join(written.get_ref())),
-        (None, None) => Err(Failure::input(match job {
-            Some(j) => format!(
-                "the job file '{}' names no program; write  program = \"part.ngc\"  at its top, or give --program FILE",
-                j.path.display()
-            ),
-            None => "no program is named; give a job file, or --program FILE".to_owned(),
-        })),
+        (None, None) => Err(Failure::new(
+            ErrorCode::Missing,
+            match job {
+                Some(j) => format!(
+                    "the job file '{}' names no program; write  program = \"part.ngc\"  at its top, or give --program FILE",
+                    j.path.display()
+                ),
+                None => "no program is named; give a job file, or --program FILE".to_owned(),
+            },
+        )),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use kinetostat_model::{Problem, Severity, TextStyle, exact_toml};
+use kinetostat_model::{Problem, Severity, exact_toml};
 use serde::de::DeserializeOwned;
 use serde_spanned::Spanned;
 use toml::de::DeTable;
@@ -28,13 +28,7 @@ impl Source<'_> {
     pub(crate) fn error(&self, span: Range<usize>, message: &str, help: &str) -> Failure {
         let [message, help] = [message, help].map(|t| safe(t).replace('\n', " "));
         let problem = self.problem(span.clone(), [message, help]);
-        let plain = problem.rendered(TextStyle::Plain);
-        let plain = plain.strip_prefix("error: ").unwrap_or(plain).to_owned();
-        Failure::located(
-            plain,
-            problem.rendered(TextStyle::Terminal).to_owned(),
-            span,
-        )
+        Failure::located(&problem, span)
     }
 
     /// The line that a place begins in, from 1.

@@ -1,5 +1,6 @@
 //! Mass of the tool, which the machine carries beside its own.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::ops::RangeInclusive;
 
 use kinetostat::Pose;
@@ -63,9 +64,12 @@ pub(crate) fn carrying(model: &Model, tool: ToolMass) -> Answer<Model> {
     let name = &mechanism.platforms()[mechanism.tool()].name;
     let mut document = model.document.clone();
     let Some(own) = document.platform.iter_mut().find(|p| p.name == *name) else {
-        return Err(Failure::input(format!(
-            "the model has no platform '{name}' that could carry the tool: leave mass_kg out of [tool]"
-        )));
+        return Err(Failure::new(
+            ErrorCode::ModelUnsuited,
+            format!(
+                "the model has no platform '{name}' that could carry the tool: leave mass_kg out of [tool]"
+            ),
+        ));
     };
     let own_mass = own.mass_kg.unwrap_or(0.0);
     let in_mm = own.centre_of_mass_mm.map(Vector3::from);

@@ -1,6 +1,7 @@
 //! The tool of a run, or its tools by number.
 
 use kinetostat::{Mechanism, Pose};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{ProgramLoad, ToolGiven, straight_tool};
 use kinetostat_model::Model;
 use serde_spanned::Spanned;
@@ -27,7 +28,8 @@ pub(crate) fn numbered_tools(
         return Ok(tools);
     };
     if flags.tool_length_mm.is_some() {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Conflict,
             "--tool-length-mm gives one length, but the job file has several tools under [[tools]]; change the length there, or leave the option out",
         ));
     }
@@ -74,9 +76,10 @@ pub(crate) fn numbered_tools(
 
 fn straight(length_mm: f64) -> Answer<(Pose, String)> {
     if !length_mm.is_finite() || length_mm.abs() > 1e5 {
-        return Err(Failure::input(format!(
-            "the tool's length is {length_mm} mm; tools are shorter than 100 m"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!("the tool's length is {length_mm} mm; tools are shorter than 100 m"),
+        ));
     }
     let words = if length_mm == 0.0 {
         "none: the platform's own point".to_owned()

@@ -1,5 +1,6 @@
 //! Uncertainties of the machine and the load of a run: `[uncertain]`, `--uncertain`.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -50,7 +51,8 @@ pub(crate) fn uncertainty(
     let in_job = table.map(|(j, table)| j.base().join(table.file.get_ref()));
     let Some(path) = flags.uncertain.clone().or(in_job) else {
         return match flags.machines {
-            Some(_) => Err(Failure::input(
+            Some(_) => Err(Failure::new(
+                ErrorCode::Missing,
                 "--machines says how many machines are drawn: say with --uncertain FILE (file under [uncertain] in the job) how they scatter",
             )),
             None => Ok(None),

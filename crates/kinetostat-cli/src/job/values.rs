@@ -1,5 +1,6 @@
 //! Numbers of an option or of the job file, and which of them are allowed.
 
+use kinetostat_diagnostic::ErrorCode;
 use serde_spanned::Spanned;
 
 use crate::job::job_file::JobFile;
@@ -17,9 +18,9 @@ pub(crate) fn chosen<T: Copy + std::fmt::Display, U>(
     allowed: impl Fn(T) -> Result<U, NotAllowed>,
 ) -> Answer<Option<U>> {
     if let Some(value) = given {
-        return allowed(value)
-            .map(Some)
-            .map_err(|NotAllowed(reason)| Failure::input(format!("{flag} is {value}: {reason}")));
+        return allowed(value).map(Some).map_err(|NotAllowed(reason)| {
+            Failure::new(ErrorCode::Value, format!("{flag} is {value}: {reason}"))
+        });
     }
     match (job, written) {
         (Some(j), Some(value)) => {

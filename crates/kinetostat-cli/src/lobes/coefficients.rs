@@ -1,6 +1,7 @@
 //! Coefficients of the cut: stated, or of a material at the thickness of its chips.
 
 use kinetostat_chatter::{Arc, Coefficients};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{Warning, WarningCode};
 
 use crate::files::input_files::InputFiles;
@@ -42,17 +43,20 @@ impl CutCoefficients {
 
     fn of_material(args: &LobesArgs, arc: &Arc) -> Answer<Self> {
         let Some(feed_mm) = args.feed_per_tooth_mm else {
-            return Err(Failure::input(
+            return Err(Failure::new(
+                ErrorCode::Missing,
                 "--material needs --feed-per-tooth-mm: how steep its law is depends on the thickness of the chips",
             ));
         };
         if !(1e-4..=10.0).contains(&feed_mm) {
-            return Err(Failure::input(format!(
-                "--feed-per-tooth-mm is {feed_mm}; 0.0001 to 10 mm are possible"
-            )));
+            return Err(Failure::new(
+                ErrorCode::Value,
+                format!("--feed-per-tooth-mm is {feed_mm}; 0.0001 to 10 mm are possible"),
+            ));
         }
         if args.material.correct_speed {
-            return Err(Failure::input(
+            return Err(Failure::new(
+                ErrorCode::Unused,
                 "--correct-speed: the cutting speed differs along the lobes; leave it out",
             ));
         }
@@ -61,8 +65,8 @@ impl CutCoefficients {
         let material = material(&materials(&files, own)?, &args.material)?;
         let applied = applied(&material, &args.material, Made::Milled, None, None)?;
         let chip_mm = feed_mm * arc.mean_sine().abs();
-        let found =
-            Coefficients::linearised(&applied.law, 1e-3 * chip_mm).map_err(Failure::input)?;
+        let found = Coefficients::linearised(&applied.law, 1e-3 * chip_mm)
+            .map_err(|error| Failure::new(ErrorCode::UnknownName, error))?;
         let outside = found.within_measured == Some(false);
         let warning = outside.then(|| {
             Warning::new(
@@ -123,36 +127,49 @@ fn odd_sign(law: &Coefficients, helix_deg: Option<f64>) -> Option<Warning> {
 
 fn stated(given: &[f64]) -> Answer<Coefficients> {
     let &[tangential, radial, axial] = given else {
-        return Err(Failure::input("--coefficients-n-per-mm2 needs KT KR KA"));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            "--coefficients-n-per-mm2 needs KT KR KA",
+        ));
     };
     if tangential > 50.0 && radial != 0.0 && radial.abs() < 5.0 {
-        return Err(Failure::input(format!(
-            "--coefficients-n-per-mm2: KR is {radial} beside KT {tangential}; it looks like a ratio. In N/mm^2 it is {}",
-            radial * tangential
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--coefficients-n-per-mm2: KR is {radial} beside KT {tangential}; it looks like a ratio. In N/mm^2 it is {}",
+                radial * tangential
+            ),
+        ));
     }
     if !PLAUSIBLE.contains(&tangential) {
-        return Err(Failure::input(format!(
-            "--coefficients-n-per-mm2: KT is {tangential} N/mm^2; {} to {} are possible, from foam to hardened steel at thin chips{}",
-            PLAUSIBLE.start(),
-            PLAUSIBLE.end(),
-            match PLAUSIBLE.contains(&(1e-6 * tangential)) {
-                true => format!(
-                    ". It looks like a value in Pa: in N/mm^2 it is {}",
-                    1e-6 * tangential
-                ),
-                false => String::new(),
-            }
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--coefficients-n-per-mm2: KT is {tangential} N/mm^2; {} to {} are possible, from foam to hardened steel at thin chips{}",
+                PLAUSIBLE.start(),
+                PLAUSIBLE.end(),
+                match PLAUSIBLE.contains(&(1e-6 * tangential)) {
+                    true => format!(
+                        ". It looks like a value in Pa: in N/mm^2 it is {}",
+                        1e-6 * tangential
+                    ),
+                    false => String::new(),
+                }
+            ),
+        ));
     }
     let larger = [radial, axial]
         .into_iter()
         .find(|k| k.abs() > *PLAUSIBLE.end());
     if let Some(other) = larger {
-        return Err(Failure::input(format!(
-            "--coefficients-n-per-mm2: {other} N/mm^2 is more than any material has ({} at most)",
-            PLAUSIBLE.end()
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--coefficients-n-per-mm2: {other} N/mm^2 is more than any material has ({} at most)",
+                PLAUSIBLE.end()
+            ),
+        ));
     }
-    Coefficients::new(1e6 * tangential, 1e6 * radial, 1e6 * axial).map_err(Failure::input)
+    Coefficients::new(1e6 * tangential, 1e6 * radial, 1e6 * axial)
+        .map_err(|error| Failure::new(ErrorCode::Value, error))
 }

@@ -10,6 +10,7 @@ mod coefficients;
 use kinetostat::Pose;
 use kinetostat_analysis::vibration::{MachineCut, MachineCutError, VibratingMachine};
 use kinetostat_chatter::{Arc, FeedFrame, LobeRequest, Milled, MillingCut, Swinging};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_dynamics::Held;
 use kinetostat_machining::{Warning, WarningCode};
 use kinetostat_report::lobes_svg;
@@ -64,7 +65,7 @@ pub(crate) fn run(args: &LobesArgs, given: &Given) -> Answer<()> {
     .map_err(refused)?;
     let diagram = regeneration
         .lobes(&request)
-        .map_err(|e| Failure::unanswered(format!("lobes: {e}")))?;
+        .map_err(|e| Failure::new(ErrorCode::NoAnswer, format!("lobes: {e}")))?;
     let mut warnings = query.warnings.clone();
     warnings.extend(subject::limits(&machine, &posture));
     let band_hz = diagram.modes_up_to_hz();
@@ -156,47 +157,60 @@ fn cut(args: &LobesArgs) -> Answer<(MillingCut, CutCoefficients)> {
         true => Milled::Up,
         false => Milled::Down,
     };
-    let arc = Arc::straight(milled, args.immersion).map_err(Failure::input)?;
+    let arc = Arc::straight(milled, args.immersion)
+        .map_err(|error| Failure::new(ErrorCode::Value, error))?;
     let coefficients = CutCoefficients::of(args, &arc)?;
-    let cut = MillingCut::new(args.teeth, arc, coefficients.law).map_err(Failure::input)?;
+    let cut = MillingCut::new(args.teeth, arc, coefficients.law)
+        .map_err(|error| Failure::new(ErrorCode::Value, error))?;
     let cut = match (args.helix_deg, args.diameter_mm) {
         (None, _) => Ok(cut),
-        (Some(_), None) => Err(Failure::input(
+        (Some(_), None) => Err(Failure::new(
+            ErrorCode::Missing,
             "--helix-deg needs --diameter-mm: the edge lags behind its tip by both",
         )),
         (Some(helix), Some(diameter)) => cut
             .with_helix(helix.to_radians(), 1e-3 * diameter)
-            .map_err(Failure::input),
+            .map_err(|error| Failure::new(ErrorCode::Value, error)),
     };
     Ok((cut?, coefficients))
 }
 
 fn request(args: &LobesArgs) -> Answer<LobeRequest> {
     let &[low, high, count] = args.rpm.as_slice() else {
-        return Err(Failure::input("--rpm needs LO HI N"));
+        return Err(Failure::new(ErrorCode::Value, "--rpm needs LO HI N"));
     };
     let one = count == 1.0 && low == high && low > 0.0 && low.is_finite();
     if one && args.outputs.plot.is_some() {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Unused,
             "--plot draws limits over the spindle speed; --rpm names one speed",
         ));
     }
     if !one && (!(2.0..=20_000.0).contains(&count) || count.fract() != 0.0) {
-        return Err(Failure::input(format!(
-            "--rpm: N is {count}; a whole number from 2 to 20000 is needed, or 1 with the same speed twice"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--rpm: N is {count}; a whole number from 2 to 20000 is needed, or 1 with the same speed twice"
+            ),
+        ));
     }
     let rising = low > 0.0 && high > low && high.is_finite();
     if !(one || rising) {
-        return Err(Failure::input(format!(
-            "--rpm {low} {high}: spindle speeds above 0 are needed, the second above the first"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--rpm {low} {high}: spindle speeds above 0 are needed, the second above the first"
+            ),
+        ));
     }
     if !(args.depth_mm > 0.0 && args.depth_mm <= 1e3) {
-        return Err(Failure::input(format!(
-            "--depth-mm is {}; a depth above 0 and of at most 1000 mm is needed",
-            args.depth_mm
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--depth-mm is {}; a depth above 0 and of at most 1000 mm is needed",
+                args.depth_mm
+            ),
+        ));
     }
     Ok(LobeRequest::new(
         low,
@@ -213,14 +227,14 @@ fn frame(args: &LobesArgs, target: &Pose) -> Answer<FeedFrame> {
         None => target.rotation * -Vector3::z(),
     };
     let feed = vector("--feed-direction", &args.feed_direction)?;
-    FeedFrame::new(feed, axis).map_err(Failure::input)
+    FeedFrame::new(feed, axis).map_err(|error| Failure::new(ErrorCode::Value, error))
 }
 
 fn refused(error: MachineCutError) -> Failure {
     match error {
         MachineCutError::Machine(error) => subject::refused(error),
-        MachineCutError::Cut(error) => Failure::input(error),
-        _ => Failure::unanswered(error),
+        MachineCutError::Cut(error) => Failure::new(ErrorCode::Value, error),
+        _ => Failure::new(ErrorCode::NoAnswer, error),
     }
 }
 

@@ -4,6 +4,7 @@
 //! before that, and the outputs as far as they are. A state is written beside the old one and renamed; outputs are synced before,
 //! and cut back to its lengths when the run goes on. With the outputs in place the folder goes.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -101,11 +102,10 @@ const NOT_KEPT: &str = "what is done so far cannot be kept";
 
 /// Failure to save a checkpoint.
 pub(crate) fn not_kept(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::input(format!(
-        "{NOT_KEPT} in '{}': {}",
-        path.display(),
-        description(error)
-    ))
+    Failure::new(
+        ErrorCode::Output,
+        format!("{NOT_KEPT} in '{}': {}", path.display(), description(error)),
+    )
 }
 
 const MANIFEST: &str = "manifest.json";
@@ -139,10 +139,13 @@ impl Checkpoint {
         let kept: Option<Manifest> = self.read(MANIFEST);
         match kept.as_ref().map(|kept| kept.differs_in(manifest)) {
             Some(None) => Ok(true),
-            Some(Some(field)) if self.has_work() => Err(Failure::input(format!(
-                "'{}' keeps a run that was interrupted, and what differs now is {field}; give the same question to go on with it, or --restart to begin anew (or delete the folder)",
-                self.folder.display()
-            ))),
+            Some(Some(field)) if self.has_work() => Err(Failure::new(
+                ErrorCode::Checkpoint,
+                format!(
+                    "'{}' keeps a run that was interrupted, and what differs now is {field}; give the same question to go on with it, or --restart to begin anew (or delete the folder)",
+                    self.folder.display()
+                ),
+            )),
             _ => {
                 // Nothing, or not whole, or nothing done yet: begun anew.
                 self.clear();
@@ -174,10 +177,13 @@ impl Checkpoint {
         fs::create_dir_all(&self.folder).map_err(|error| self.refused(&error))?;
         let lock = hold(&self.folder).map_err(|error| self.refused(&error))?;
         let Some(lock) = lock else {
-            return Err(Failure::input(format!(
-                "another run writes the same output just now, and keeps what is done in '{}': wait until it has ended, or choose another output",
-                self.folder.display()
-            )));
+            return Err(Failure::new(
+                ErrorCode::Output,
+                format!(
+                    "another run writes the same output just now, and keeps what is done in '{}': wait until it has ended, or choose another output",
+                    self.folder.display()
+                ),
+            ));
         };
         self.lock = Some(lock);
         Ok(())
@@ -271,7 +277,10 @@ impl Checkpoint {
     /// A value behind its check number.
     fn write(&self, name: &str, value: &impl Serialize) -> Answer<()> {
         let text = serde_json::to_string(value).map_err(|error| {
-            Failure::input(format!("the state of the run cannot be kept: {error}"))
+            Failure::new(
+                ErrorCode::Internal,
+                format!("the state of the run cannot be kept: {error}"),
+            )
         })?;
         let new = self.folder.join("new");
         let written = || -> std::io::Result<()> {

@@ -1,5 +1,6 @@
 //! An output that grows part by part, and is cut back to what is known to be whole.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::fs::{File, OpenOptions};
 use std::io::{BufReader, Read, Seek, SeekFrom, Write};
 use std::path::PathBuf;
@@ -115,7 +116,8 @@ impl Watched {
     pub(crate) fn refuse_if_changed(&self) -> Answer<()> {
         match self.found == self.written {
             true => Ok(()),
-            false => Err(Failure::input(
+            false => Err(Failure::new(
+                ErrorCode::Checkpoint,
                 "what was kept of the run was changed by something else: give --restart to begin anew",
             )),
         }

@@ -1,5 +1,6 @@
 //! Outputs of a long run: claimed before it begins, put in place when it is done.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::io::Read;
 use std::path::PathBuf;
 
@@ -104,9 +105,12 @@ fn put(from: &Partial, outputs: &mut Outputs, index: usize) -> Answer<String> {
     let mut block = vec![0; 1 << 16];
     let mut hash = Sha256::new();
     loop {
-        let count = reader
-            .read(&mut block)
-            .map_err(|error| Failure::input(format!("what was kept cannot be read: {error}")))?;
+        let count = reader.read(&mut block).map_err(|error| {
+            Failure::new(
+                ErrorCode::Checkpoint,
+                format!("what was kept cannot be read: {error}"),
+            )
+        })?;
         if count == 0 {
             break;
         }

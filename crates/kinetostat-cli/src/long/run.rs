@@ -1,5 +1,6 @@
 //! A program that is run in parts: surveyed, looked at, run, and put in place.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::io::BufReader;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -84,10 +85,11 @@ pub(crate) fn survey(
 
 fn unread(setting: &Setting, error: PartError) -> Failure {
     let failure = match error {
-        PartError::Changed => Failure::input(
+        PartError::Changed => Failure::new(
+            ErrorCode::Checkpoint,
             "the program is another one than when the run began: its file was changed meanwhile, and nothing is written; give --restart to begin anew with the new program",
         ),
-        error => Failure::input(error).of_program(),
+        error => Failure::new(ErrorCode::ProgramRefused, error).of_program(),
     };
     setting.within(failure)
 }
@@ -247,9 +249,10 @@ impl<'a> LongRun<'a> {
         } = work;
         let result = state.merged.finish(reading.collect());
         let Some(mut result) = result else {
-            return Err(self
-                .setting
-                .within(Failure::input("the program has no block")));
+            return Err(self.setting.within(Failure::new(
+                ErrorCode::ProgramUnsuited,
+                "the program has no block",
+            )));
         };
         result.warnings.extend(stands);
         result.warnings.extend(self.machine.not_carried.clone());

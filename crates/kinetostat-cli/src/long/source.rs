@@ -1,5 +1,6 @@
 //! The file of a long program.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::fs::File;
 use std::io::Read;
 
@@ -41,9 +42,9 @@ impl<R: Read> Read for Hashed<R> {
 pub(crate) fn open(setting: &Setting) -> Answer<File> {
     let path = &setting.program_path;
     File::open(path).map_err(|error| {
-        Failure::input(format!(
-            "the program '{}' cannot be read: {error}",
-            path.display()
-        ))
+        Failure::new(
+            ErrorCode::FileNotRead,
+            format!("the program '{}' cannot be read: {error}", path.display()),
+        )
     })
 }

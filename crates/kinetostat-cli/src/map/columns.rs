@@ -1,6 +1,7 @@
 //! Additional variables of a map: the requested ones, and the names of their columns.
 
 use kinetostat::MotionKind;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{MapPlace, VARIABLES, Variable, Worse};
 
 use crate::map::arguments::{MapArgs, Quantity};
@@ -139,10 +140,10 @@ pub(crate) fn asked(
     let mut variables = Vec::new();
     for name in &args.variables {
         let Some(variable) = Variable::named(name) else {
-            return Err(Failure::input(format!(
-                "--variables: there is no '{name}'; there are {}",
-                known()
-            )));
+            return Err(Failure::new(
+                ErrorCode::UnknownName,
+                format!("--variables: there is no '{name}'; there are {}", known()),
+            ));
         };
         if !variables.contains(&variable) {
             variables.push(variable);
@@ -156,18 +157,21 @@ pub(crate) fn asked(
             .find(|v| names(*v, actuators.len()).contains(&args.show));
         let Some(own) = own else {
             let several = entries.clone().find(|v| v.entry().name == args.show);
-            return Err(Failure::input(match several {
-                Some(several) => format!(
-                    "--show: '{}' has several columns; choose one of {}",
-                    args.show,
-                    names(several, actuators.len()).join(", ")
-                ),
-                None => format!(
-                    "--show: there is no '{}'; there are softest, x, y, z, displacement, rotation, and columns of {}",
-                    args.show,
-                    known()
-                ),
-            }));
+            return Err(Failure::new(
+                ErrorCode::Missing,
+                match several {
+                    Some(several) => format!(
+                        "--show: '{}' has several columns; choose one of {}",
+                        args.show,
+                        names(several, actuators.len()).join(", ")
+                    ),
+                    None => format!(
+                        "--show: there is no '{}'; there are softest, x, y, z, displacement, rotation, and columns of {}",
+                        args.show,
+                        known()
+                    ),
+                },
+            ));
         };
         if !variables.contains(&own) {
             variables.push(own);
@@ -175,7 +179,7 @@ pub(crate) fn asked(
     }
     for variable in &variables {
         let name = variable.entry().name;
-        let refuse = |what: &str| Err(Failure::input(format!("'{name}' {what}")));
+        let refuse = |what: &str| Err(Failure::new(ErrorCode::Missing, format!("'{name}' {what}")));
         if variable.needs_load() && !loaded {
             return refuse("needs a load; give --force or --moment (zeros are one, too)");
         }
@@ -191,7 +195,9 @@ pub(crate) fn asked(
         None => {
             let all = columns(&variables, actuators);
             let own = all.into_iter().find(|c| c.name == args.show);
-            Shown::Column(own.ok_or_else(|| Failure::input("--show: nothing to show"))?)
+            Shown::Column(
+                own.ok_or_else(|| Failure::new(ErrorCode::Missing, "--show: nothing to show"))?,
+            )
         }
     };
     Ok((variables, shown))

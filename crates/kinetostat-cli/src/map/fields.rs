@@ -1,5 +1,6 @@
 //! A map as files of other programs: VTK, NetCDF, Parquet.
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::fields::{FieldAxis, FieldColumn, Fields};
 use kinetostat_machining::{Grid, MapPlace};
 
@@ -112,7 +113,10 @@ impl Gathering {
 
 /// A NetCDF file as bytes: its crate writes to a path.
 pub(crate) fn netcdf(fields: &Fields) -> Answer<Vec<u8>> {
-    let part = tempfile::NamedTempFile::new().map_err(Failure::input)?;
-    fields.write_netcdf(part.path()).map_err(Failure::input)?;
-    std::fs::read(part.path()).map_err(Failure::input)
+    let part =
+        tempfile::NamedTempFile::new().map_err(|error| Failure::new(ErrorCode::Output, error))?;
+    fields
+        .write_netcdf(part.path())
+        .map_err(|error| Failure::new(ErrorCode::Output, error))?;
+    std::fs::read(part.path()).map_err(|error| Failure::new(ErrorCode::Output, error))
 }

@@ -1,5 +1,6 @@
 //! The files of a map: the table, the drawing, and the fields for other programs.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use contour::ContourBuilder;
@@ -85,12 +86,15 @@ impl Files {
 
 #[cfg(feature = "parquet")]
 fn parquet_of(fields: &Fields) -> Answer<Vec<u8>> {
-    fields.parquet().map_err(Failure::input)
+    fields
+        .parquet()
+        .map_err(|error| Failure::new(ErrorCode::Output, error))
 }
 
 #[cfg(not(feature = "parquet"))]
 fn parquet_of(_: &Fields) -> Answer<Vec<u8>> {
-    Err(Failure::input(
+    Err(Failure::new(
+        ErrorCode::NotBuiltIn,
         "--parquet: this program was built without Parquet",
     ))
 }

@@ -14,6 +14,7 @@ mod solve;
 mod store;
 mod text;
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use kinetostat::{Mechanism, MotionKind, Wrench};
@@ -117,9 +118,10 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
 fn with_tool(args: &MapArgs, model: &Model) -> Answer<Mechanism> {
     let length = args.tool_length_mm.unwrap_or(0.0);
     if length.abs() > 1e5 {
-        return Err(Failure::input(format!(
-            "--tool-length-mm is {length}; tools are shorter than 100 m"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!("--tool-length-mm is {length}; tools are shorter than 100 m"),
+        ));
     }
     Ok((model.mechanism).with_tool(&straight_tool(1e-3 * length)))
 }
@@ -127,7 +129,8 @@ fn with_tool(args: &MapArgs, model: &Model) -> Answer<Mechanism> {
 /// Refuses effects of a load without a load.
 fn shown_with_a_load(args: &MapArgs, loads: &[Wrench]) -> Answer<()> {
     if loads.is_empty() && matches!(&*args.show, "displacement" | "rotation") {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Missing,
             "--show displacement and --show rotation need a load; give --force or --moment",
         ));
     }
@@ -295,7 +298,8 @@ impl Orientations {
             .map(|text| orientation::option_or_follows("--rotation", text))
             .collect::<Answer<_>>()?;
         if requested.len() > 1 && requested.iter().any(Option::is_none) {
-            return Err(Failure::input(
+            return Err(Failure::new(
+                ErrorCode::Conflict,
                 "--rotation follows is the only orientation, or none of them",
             ));
         }
@@ -317,7 +321,8 @@ impl Orientations {
     pub(crate) fn cases(&self, loads: &[Wrench]) -> Answer<usize> {
         let cases = self.requested.len().max(1) * loads.len().max(1);
         if cases > 1 && self.follows {
-            return Err(Failure::input(
+            return Err(Failure::new(
+                ErrorCode::Missing,
                 "several loads are compared where the orientation is held; give --rotation, or one load",
             ));
         }
@@ -349,16 +354,19 @@ fn without_figures(task: &MapTask<'_>, places: &Places) -> Option<Failure> {
     if places.no_answer > 0 {
         return Some(no_equilibrium(task, places));
     }
-    Some(Failure::unanswered(format!(
-        "the machine {} with the tool {} (cannot be reached: {}; outside the limits of an actuator: {}); choose places inside the workspace (`kinetostat check` tells its size), another --rotation, or check the tool's length",
-        match places.requested {
-            1 => "cannot be put at the place".to_owned(),
-            n => format!("can be put at none of the {n} places"),
-        },
-        orientation::description(&task.orientation),
-        places.unreachable,
-        places.outside_limits
-    )))
+    Some(Failure::new(
+        ErrorCode::Unreachable,
+        format!(
+            "the machine {} with the tool {} (cannot be reached: {}; outside the limits of an actuator: {}); choose places inside the workspace (`kinetostat check` tells its size), another --rotation, or check the tool's length",
+            match places.requested {
+                1 => "cannot be put at the place".to_owned(),
+                n => format!("can be put at none of the {n} places"),
+            },
+            orientation::description(&task.orientation),
+            places.unreachable,
+            places.outside_limits
+        ),
+    ))
 }
 
 /// Failure if places are within reach and none has an answer: the load is the reason.
@@ -371,13 +379,16 @@ fn no_equilibrium(task: &MapTask<'_>, places: &Places) -> Failure {
             places.no_answer, places.unreachable, places.outside_limits
         ),
     };
-    Failure::unanswered(format!(
-        "no equilibrium was found {} under the force {} N and the moment {} N m{counts}: the load may be beyond what the machine can carry; check the load and its unit, or try a part of it",
-        match places.requested {
-            1 => "at the place".to_owned(),
-            n => format!("at any of the {n} places"),
-        },
-        load_triple(wrench.force().into()),
-        load_triple(wrench.moment().into()),
-    ))
+    Failure::new(
+        ErrorCode::NotConverged,
+        format!(
+            "no equilibrium was found {} under the force {} N and the moment {} N m{counts}: the load may be beyond what the machine can carry; check the load and its unit, or try a part of it",
+            match places.requested {
+                1 => "at the place".to_owned(),
+                n => format!("at any of the {n} places"),
+            },
+            load_triple(wrench.force().into()),
+            load_triple(wrench.moment().into()),
+        ),
+    )
 }

@@ -1,5 +1,6 @@
 //! A map as a drawing of one section.
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{Grid, MapPlace, PlaceState};
 use kinetostat_report::{Cell, Plot, PlotLine, PlotMark, Section};
 
@@ -161,9 +162,12 @@ fn across(section: Option<&str>, grid: &Grid) -> Answer<(usize, usize)> {
         return Ok((axis, (grid.counts[axis] - 1) / 2));
     };
     let refuse = || {
-        Failure::input(format!(
-            "--section '{text}': write the axis across the section and where it is cut in mm, as in z=150"
-        ))
+        Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--section '{text}': write the axis across the section and where it is cut in mm, as in z=150"
+            ),
+        )
     };
     let (name, value) = text.split_once('=').ok_or_else(refuse)?;
     let axis = AXES.iter().position(|a| *a == name.trim().to_lowercase());

@@ -1,6 +1,7 @@
 //! The query of `map`: grid and load.
 
 use kinetostat::Wrench;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::Grid;
 use nalgebra::Vector3;
 
@@ -24,7 +25,8 @@ pub(crate) fn grid(args: &MapArgs, home_mm: [f64; 3]) -> Answer<Grid> {
     };
     let requested = [&args.x, &args.y, &args.z];
     if requested.iter().all(|a| a.is_none()) {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Missing,
             "a map needs places; give at least one of --x, --y and --z, as in --x -100 100 21 (from, to in mm, how many)",
         ));
     }
@@ -32,9 +34,10 @@ pub(crate) fn grid(args: &MapArgs, home_mm: [f64; 3]) -> Answer<Grid> {
         let Some(values) = values else { continue };
         let name = AXES[k];
         if values.iter().take(2).any(|x| x.abs() > 1e7) {
-            return Err(Failure::input(format!(
-                "--{name} leads more than 10 km away; coordinates are in mm"
-            )));
+            return Err(Failure::new(
+                ErrorCode::Value,
+                format!("--{name} leads more than 10 km away; coordinates are in mm"),
+            ));
         }
         (grid.from_mm[k], grid.to_mm[k], grid.counts[k]) = match values[..] {
             [at] => (at, at, 1),
@@ -42,16 +45,22 @@ pub(crate) fn grid(args: &MapArgs, home_mm: [f64; 3]) -> Answer<Grid> {
             [from, to] => (from, to, USUAL),
             [from, to, n] if n.fract() == 0.0 && n >= 1.0 && n <= MOST_PLACES as f64 => {
                 if (n == 1.0) != (from == to) {
-                    return Err(Failure::input(format!(
-                        "--{name} {from} {to} {n}: two places or more lie between different ends, one place where they are the same"
-                    )));
+                    return Err(Failure::new(
+                        ErrorCode::Value,
+                        format!(
+                            "--{name} {from} {to} {n}: two places or more lie between different ends, one place where they are the same"
+                        ),
+                    ));
                 }
                 (from, to, n as usize)
             }
             _ => {
-                return Err(Failure::input(format!(
-                    "--{name}: write one position, or from, to (mm) and a whole number of places, as in --{name} -100 100 21"
-                )));
+                return Err(Failure::new(
+                    ErrorCode::Value,
+                    format!(
+                        "--{name}: write one position, or from, to (mm) and a whole number of places, as in --{name} -100 100 21"
+                    ),
+                ));
             }
         };
         // Files and drawings of grids want places that rise.
@@ -60,10 +69,13 @@ pub(crate) fn grid(args: &MapArgs, home_mm: [f64; 3]) -> Answer<Grid> {
         }
     }
     if grid.len() > MOST_PLACES {
-        return Err(Failure::input(format!(
-            "the grid has {} places; {MOST_PLACES} are the most",
-            grid.len()
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "the grid has {} places; {MOST_PLACES} are the most",
+                grid.len()
+            ),
+        ));
     }
     Ok(grid)
 }
@@ -84,11 +96,14 @@ pub(crate) fn loads(args: &MapArgs) -> Answer<Vec<Wrench>> {
     };
     let each = (0..count).map(|i| match (of(&forces, i), of(&moments, i)) {
         (Some(force), Some(moment)) => Ok(Wrench::new(force, moment)),
-        _ => Err(Failure::input(format!(
-            "there are {} forces and {} moments; give one for all, or as many of both",
-            forces.len(),
-            moments.len()
-        ))),
+        _ => Err(Failure::new(
+            ErrorCode::Conflict,
+            format!(
+                "there are {} forces and {} moments; give one for all, or as many of both",
+                forces.len(),
+                moments.len()
+            ),
+        )),
     });
     each.collect()
 }

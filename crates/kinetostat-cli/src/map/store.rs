@@ -4,6 +4,7 @@
 //! place in the order of the grid, and behind each block of them a check number. A block that is not whole is solved again with
 //! all that follows it. One run at a time writes there.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufReader, Read, Seek, SeekFrom, Write};
@@ -63,7 +64,10 @@ impl Store {
         places: usize,
     ) -> Answer<Self> {
         let refuse = |path: &Path, what: &dyn std::fmt::Display| {
-            Failure::input(format!("--resume: '{}': {what}", path.display()))
+            Failure::new(
+                ErrorCode::Checkpoint,
+                format!("--resume: '{}': {what}", path.display()),
+            )
         };
         fs::create_dir_all(directory).map_err(|e| refuse(directory, &description(&e)))?;
         let lock = hold(directory).map_err(|e| refuse(directory, &description(&e)))?;
@@ -73,7 +77,8 @@ impl Store {
         };
         let named = directory.join("manifest.json");
         let path = directory.join("rows.bin");
-        let wanted = serde_json::to_string_pretty(manifest).map_err(Failure::input)?;
+        let wanted = serde_json::to_string_pretty(manifest)
+            .map_err(|error| Failure::new(ErrorCode::Checkpoint, error))?;
         let begin = || {
             let mut part =
                 tempfile::NamedTempFile::new_in(directory).map_err(|e| refuse(&named, &e))?;
@@ -133,11 +138,14 @@ impl Store {
     }
 
     fn failed(&self, error: &std::io::Error) -> Failure {
-        Failure::input(format!(
-            "--resume: '{}': {}; nothing of what was kept is lost, and the same command goes on from there",
-            self.path.display(),
-            description(error)
-        ))
+        Failure::new(
+            ErrorCode::Checkpoint,
+            format!(
+                "--resume: '{}': {}; nothing of what was kept is lost, and the same command goes on from there",
+                self.path.display(),
+                description(error)
+            ),
+        )
     }
 
     /// Known places, block by block.
@@ -174,10 +182,13 @@ impl Store {
             .filter(|_| row[0] >= 0.0);
         let found = FOUND.get(row[1] as usize).filter(|_| row[1] >= 0.0);
         let (Some(state), Some(found)) = (state, found) else {
-            return Err(Failure::input(format!(
-                "--resume: '{}': row {place} is not one of a map; remove the directory and begin again",
-                self.path.display()
-            )));
+            return Err(Failure::new(
+                ErrorCode::Checkpoint,
+                format!(
+                    "--resume: '{}': row {place} is not one of a map; remove the directory and begin again",
+                    self.path.display()
+                ),
+            ));
         };
         (own.state, own.found_by) = (*state, *found);
         own.tool_turn_deg = row[2];

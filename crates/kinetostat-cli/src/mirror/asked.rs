@@ -1,5 +1,6 @@
 //! Input of a trial: the program, its settings and the state of the trials before.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat_mirror::{MeasureSettings, MirrorState, NominalPath, Register, Stations};
@@ -32,14 +33,15 @@ pub(crate) fn asked(
     };
     let mut setting = setting(files, job, &flags, &writing)?;
     if setting.flat.is_some() {
-        return Err(setting.within(Failure::input(
+        return Err(setting.within(Failure::new(ErrorCode::ProgramUnsuited,
             "mirror takes programs without macros and in one piece, so that trials stay comparable: expand the program first (`kinetostat expand`), and mirror the flat one",
         )));
     }
     refuse_lines_beyond(job, &setting)?;
     let of_pose = args.robot.correct == Some(CorrectWord::Pose);
     if of_pose && !names_model(job) {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Unused,
             "--correct pose: measured points correct where the tool is, not how it stands; only a model does that (--job with a model)",
         ));
     }
@@ -84,15 +86,18 @@ pub(crate) fn settings_of(
     let usual = MeasureSettings::default();
     let chosen = args.register.map(Register::from);
     let register = chosen.or(before.map(|state| state.settings.register)).ok_or_else(|| {
-        Failure::input(
+        Failure::new(ErrorCode::Missing,
             "how the points are registered is not stated, and what a registration takes away is not corrected: give --register none (points in the frame of the program), translation (a shift is not corrected), or rigid (a shift and a turn are not corrected)",
         )
     })?;
     if args.scale && register != Register::Rigid {
-        return Err(Failure::input(format!(
-            "--scale: a scale is sought besides a rigid motion, and the registration is '{}'; give --register rigid, or leave --scale out",
-            register.word()
-        )));
+        return Err(Failure::new(
+            ErrorCode::Unused,
+            format!(
+                "--scale: a scale is sought besides a rigid motion, and the registration is '{}'; give --register rigid, or leave --scale out",
+                register.word()
+            ),
+        ));
     }
     let settings = MeasureSettings {
         smoothing_mm: args.smoothing_mm.unwrap_or(usual.smoothing_mm),
@@ -105,9 +110,12 @@ pub(crate) fn settings_of(
         .map_err(|error| Failure::from(error).within("--smoothing-mm"))?;
     match settings.window_mm > 0.0 {
         true => Ok(settings),
-        false => Err(Failure::input(format!(
-            "--window-mm {}: a length above 0 is needed",
-            settings.window_mm
-        ))),
+        false => Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--window-mm {}: a length above 0 is needed",
+                settings.window_mm
+            ),
+        )),
     }
 }

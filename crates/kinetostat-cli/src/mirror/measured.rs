@@ -1,5 +1,6 @@
 //! Measurement of a trial, compared with the path.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::PathBuf;
 
 use kinetostat_mirror::{
@@ -39,13 +40,13 @@ pub(crate) fn measurements(
                 let second = asked(files, job, args, path)?;
                 let read = read_program(&second)?;
                 if let Some(line) = read.with(|program| program.mark_line()) {
-                    return Err(Failure::input(format!(
+                    return Err(Failure::new(ErrorCode::ProgramUnsuited, format!(
                         "line {line}: the program is marked as compensated: its path is that of the commands, not of the machine, and its corrections would be mirrored as errors; give measured points, or a program of what was measured"
                     ))
                     .within(&name));
                 }
                 if hash_of(&second) == hash {
-                    return Err(Failure::input(
+                    return Err(Failure::new(ErrorCode::ProgramUnsuited,
                         "this is the program itself, which lies on its own path: nothing was measured; give measured points, or a program of what was measured",
                     )
                     .within(&name));
@@ -78,9 +79,12 @@ pub(crate) fn repeatability(
         Some(um) if (FINEST_UM..=COARSEST_UM).contains(&um) => {
             Ok(Some(Repeatability::OfPoints(1e-3 * um)))
         }
-        Some(um) => Err(Failure::input(format!(
-            "--repeatability-um {um}: measurements repeat within {FINEST_UM} to {COARSEST_UM} um; give a standard deviation above 0, in micrometres"
-        ))),
+        Some(um) => Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--repeatability-um {um}: measurements repeat within {FINEST_UM} to {COARSEST_UM} um; give a standard deviation above 0, in micrometres"
+            ),
+        )),
         None => Ok(Repeatability::of_repeats(
             measured.iter().map(|(_, found)| found),
         )),

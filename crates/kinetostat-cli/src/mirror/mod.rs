@@ -15,6 +15,7 @@ mod measured;
 mod text;
 mod written;
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use kinetostat_machining::{FieldCorrection, RunError, of_accounting};
@@ -49,7 +50,7 @@ use crate::ui::result_form::ResultForm;
 
 impl From<MirrorError> for Failure {
     fn from(error: MirrorError) -> Self {
-        Self::input(error.to_string())
+        Self::new(ErrorCode::FileForm, error.to_string())
     }
 }
 
@@ -87,9 +88,12 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
     fits.map_err(|error| of_state(error.into()))?;
     let kept = state.compensation.clone().map(Manifest);
     if let Some(field) = kept.and_then(|kept| kept.differs_in(&compensation)) {
-        return Err(of_state(Failure::input(format!(
-            "its trials were made on top of another compensation by a model, and what differs now is {field}: go on with the same --job, or begin with a new state"
-        ))));
+        return Err(of_state(Failure::new(
+            ErrorCode::Conflict,
+            format!(
+                "its trials were made on top of another compensation by a model, and what differs now is {field}: go on with the same --job, or begin with a new state"
+            ),
+        )));
     }
     let claimed = Claimed::of(args, &setting)?;
 
@@ -365,19 +369,25 @@ fn read_state(files: &InputFiles, path: &Path) -> Answer<MirrorState> {
             .iter()
             .filter(|b| **b == b'\n')
             .count();
-        Failure::input(format!(
-            "'{}', line {line}: this is no state of trials: {}; name the file that an earlier run wrote with --state",
-            path.display(),
-            error.message()
-        ))
+        Failure::new(
+            ErrorCode::FileForm,
+            format!(
+                "'{}', line {line}: this is no state of trials: {}; name the file that an earlier run wrote with --state",
+                path.display(),
+                error.message()
+            ),
+        )
     };
     let digest: Digest = toml::from_str(&text).map_err(of_file)?;
     let state = toml::from_str(&text).map_err(of_file)?;
     match digest.content_sha256 {
-        Some(written) if written != digest_of(&text) => Err(Failure::input(format!(
-            "'{}': the file was changed after it was written ({DIGEST} is not that of its content), and corrections would no longer be those of the programs that were run; take a copy of it as it was, or begin with a new state (another --state, and the program without a correction as trial 1)",
-            path.display()
-        ))),
+        Some(written) if written != digest_of(&text) => Err(Failure::new(
+            ErrorCode::FileForm,
+            format!(
+                "'{}': the file was changed after it was written ({DIGEST} is not that of its content), and corrections would no longer be those of the programs that were run; take a copy of it as it was, or begin with a new state (another --state, and the program without a correction as trial 1)",
+                path.display()
+            ),
+        )),
         _ => Ok(state),
     }
 }
@@ -390,7 +400,11 @@ fn digest_of(text: &str) -> String {
 }
 
 fn state_text(state: &MirrorState) -> Answer<String> {
-    let content = toml::to_string(state)
-        .map_err(|error| Failure::input(format!("the state cannot be written: {error}")))?;
+    let content = toml::to_string(state).map_err(|error| {
+        Failure::new(
+            ErrorCode::Internal,
+            format!("the state cannot be written: {error}"),
+        )
+    })?;
     Ok(format!("{DIGEST} = \"{}\"\n{content}", digest_of(&content)))
 }

@@ -1,5 +1,6 @@
 //! `kinetostat model compare`: which constant offsets make one model the other.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat::{Mechanism, Pose};
@@ -134,19 +135,26 @@ fn cannot_be_compared(error: &ComparisonError, a: &str, b: &str) -> Failure {
         )
     };
     match error {
-        ComparisonError::NoActuator => Failure::input(format!("{a} has no actuator")),
-        ComparisonError::DifferentActuators { a: of_a, b: of_b } => Failure::input(format!(
-            "the actuators differ, or their order: {a} has {}, {b} has {}; only machines of the same joints in the same order can be mapped on each other",
-            list(of_a),
-            list(of_b)
-        )),
-        ComparisonError::TooFewPostures => Failure::unanswered(format!(
-            "{a}: its loops close at too few postures around home to compare them"
-        )),
-        ComparisonError::NoMapping => Failure::unanswered(format!(
-            "{b} cannot take the posture of {a}, with no sign of its joints"
-        )),
-        other => Failure::unanswered(other),
+        ComparisonError::NoActuator => {
+            Failure::new(ErrorCode::ModelUnsuited, format!("{a} has no actuator"))
+        }
+        ComparisonError::DifferentActuators { a: of_a, b: of_b } => Failure::new(
+            ErrorCode::ModelUnsuited,
+            format!(
+                "the actuators differ, or their order: {a} has {}, {b} has {}; only machines of the same joints in the same order can be mapped on each other",
+                list(of_a),
+                list(of_b)
+            ),
+        ),
+        ComparisonError::TooFewPostures => Failure::new(
+            ErrorCode::NoAnswer,
+            format!("{a}: its loops close at too few postures around home to compare them"),
+        ),
+        ComparisonError::NoMapping => Failure::new(
+            ErrorCode::NoAnswer,
+            format!("{b} cannot take the posture of {a}, with no sign of its joints"),
+        ),
+        other => Failure::new(ErrorCode::NoAnswer, other),
     }
 }
 

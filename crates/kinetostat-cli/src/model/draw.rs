@@ -1,5 +1,6 @@
 //! `kinetostat model draw`: a drawing of a machine, and of how it moves or bends.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
@@ -86,7 +87,8 @@ Exit codes:
 pub(crate) fn run(args: &DrawArgs) -> Answer<()> {
     let loaded = args.force.is_some() || args.moment.is_some();
     if args.scale.is_some() && !loaded {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Unused,
             "--scale says how much larger a deflection is drawn, but there is none; give --force or --moment",
         ));
     }
@@ -167,10 +169,15 @@ fn motion(posture: &Posture, rank: usize) -> Answer<(Moved, String)> {
     list.sort_by(|a, b| a.stiffness_n_per_m.total_cmp(&b.stiffness_n_per_m));
     let count = list.len();
     let Some(direction) = rank.checked_sub(1).and_then(|i| list.get(i)) else {
-        return Err(Failure::input(match count {
-            0 => "--motion: the machine is rigid, its tool moves in no direction".to_owned(),
-            _ => format!("--motion is {rank}; directions are numbered 1 (the softest) to {count}"),
-        }));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            match count {
+                0 => "--motion: the machine is rigid, its tool moves in no direction".to_owned(),
+                _ => format!(
+                    "--motion is {rank}; directions are numbered 1 (the softest) to {count}"
+                ),
+            },
+        ));
     };
     let mut direction = (*direction).clone();
     let (from, to) = small_motion(posture, &stiffness, &direction.twist)?;

@@ -6,6 +6,7 @@ pub(crate) mod arguments;
 mod compare;
 mod draw;
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_model::{Model, PresetKind, json_schema, preset_names, preset_text};
 
 use crate::model::arguments::{ModelAction, ModelArgs};
@@ -26,7 +27,10 @@ pub(crate) fn run(args: &ModelArgs) -> Answer<()> {
             Some(text) => screen::print_bytes(text.as_bytes()),
             None => Err(match Model::preset(name) {
                 Err(error) => error.into(),
-                Ok(_) => Failure::input(format!("there is no preset named '{name}'")),
+                Ok(_) => Failure::new(
+                    ErrorCode::UnknownName,
+                    format!("there is no preset named '{name}'"),
+                ),
             }),
         },
         ModelAction::Compare { a, b, json } => compare::run(a, b, *json),

@@ -10,6 +10,7 @@ mod text;
 
 use kinetostat::Posture;
 use kinetostat_analysis::vibration::VibratingMachine;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_dynamics::{ComplexMode, Damping, Mode, ModeKind};
 use kinetostat_report::{Drawing, Magnified, Moved, Placed};
 
@@ -30,7 +31,10 @@ pub(crate) const RESULTS: &[ResultForm] =
 
 pub(crate) fn run(args: &ModesArgs) -> Answer<()> {
     if args.modes == 0 {
-        return Err(Failure::input("--modes is 0; ask for one at least"));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            "--modes is 0; ask for one at least",
+        ));
     }
     let query = subject::query(&args.machine)?;
     let damping = args.damping.law(&query.damping)?;

@@ -1,6 +1,7 @@
 //! Joint values on the command line and in answers: the model's, and what the controller shows.
 
 use kinetostat::{Mechanism, MotionKind};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_model::schema::ControllerUnit;
 use kinetostat_model::{Controller, Model};
 use schemars::JsonSchema;
@@ -107,9 +108,12 @@ pub(crate) fn given(model: &Model, place: &PlaceArgs) -> Answer<Option<Vec<f64>>
         }
     };
     let Some(controller) = &model.controller else {
-        return Err(Failure::input(format!(
-            "{option}: the model has no [controller] that says what the controller shows; give the model's own joint values with --joints, or write the section (kinetostat model schema)",
-        )));
+        return Err(Failure::new(
+            ErrorCode::ModelUnsuited,
+            format!(
+                "{option}: the model has no [controller] that says what the controller shows; give the model's own joint values with --joints, or write the section (kinetostat model schema)",
+            ),
+        ));
     };
     let axes = controller.axes();
     let names = on_axes(controller);
@@ -143,7 +147,8 @@ fn read(flag: &str, given: &[String], names: &[Named], start: Vec<f64>) -> Answe
     let mut values = start;
     let mut seen: Vec<usize> = Vec::new();
     for text in given {
-        let refuse = |reason: String| Failure::input(format!("{flag} '{text}': {reason}"));
+        let refuse =
+            |reason: String| Failure::new(ErrorCode::Value, format!("{flag} '{text}': {reason}"));
         let Some((name, value)) = text.rsplit_once('=') else {
             return Err(refuse(
                 "write the name of a joint and its value, as in J1=10 or E1=1250mm".into(),

@@ -1,6 +1,7 @@
 //! Poses of job files and options, by the model crate's own conventions: an orientation is taken
 //! only under the name of its convention.
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{Warning, WarningCode};
 use kinetostat_model::schema::Placement;
 use nalgebra::UnitQuaternion;
@@ -50,7 +51,8 @@ pub(crate) fn follows(turned_deg: f64, requested: bool, at_most: bool) -> Warnin
 
 /// `CONVENTION=A,B,C` of an option.
 pub(crate) fn option(flag: &str, text: &str) -> Answer<UnitQuaternion<f64>> {
-    let refuse = |reason: String| Failure::input(format!("{flag} '{text}': {reason}"));
+    let refuse =
+        |reason: String| Failure::new(ErrorCode::Value, format!("{flag} '{text}': {reason}"));
     let names = CONVENTIONS.join(", ");
     let Some((name, values)) = text.split_once('=') else {
         return Err(refuse(format!(

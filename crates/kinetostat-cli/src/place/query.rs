@@ -1,5 +1,6 @@
 //! A model, its tool, a place in the workspace and a load: what `deflect --at` and `stiffness` ask.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use kinetostat::machine::LimbPosture;
@@ -84,9 +85,10 @@ pub(crate) fn place_query_of(
 ) -> Answer<PlaceQuery> {
     let length = tool_length_mm.unwrap_or(0.0);
     if !length.is_finite() || length.abs() > 1e5 {
-        return Err(Failure::input(format!(
-            "--tool-length-mm is {length}; tools are shorter than 100 m"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!("--tool-length-mm is {length}; tools are shorter than 100 m"),
+        ));
     }
     let mechanism = read.mechanism.with_tool(&straight_tool(1e-3 * length));
     let home = mechanism.platforms()[mechanism.tool()].home;
@@ -104,7 +106,8 @@ pub(crate) fn place_query_of(
         (Some(at), _) => {
             let position = vector("--at", at)? * 1e-3;
             if position.norm() > FARTHEST {
-                return Err(Failure::input(
+                return Err(Failure::new(
+                    ErrorCode::Value,
                     "--at lies more than 10 km away; coordinates are in mm",
                 ));
             }

@@ -9,6 +9,7 @@ mod part;
 mod picture;
 mod text;
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use kinetostat_machining::{Placement, Task, Warning, WarningCode, analyse};
@@ -65,9 +66,10 @@ pub(crate) fn run(args: &PlacingArgs, given: &Given) -> Answer<()> {
     if let Some(samples) = args.samples
         && !(1..=MOST_SAMPLES).contains(&samples)
     {
-        return Err(Failure::input(format!(
-            "--samples {samples}: 1 to {MOST_SAMPLES} placements can fill the ranges"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!("--samples {samples}: 1 to {MOST_SAMPLES} placements can fill the ranges"),
+        ));
     }
     let question = question(job, args)?;
     let mut setting = setting(&files, job, &args.program, &WritingFlags::default())?;
@@ -152,7 +154,8 @@ pub(crate) fn run(args: &PlacingArgs, given: &Given) -> Answer<()> {
     }
     if let Some(index) = plot_out {
         let drawing = picture::drawing(&answer, &space).ok_or_else(|| {
-            Failure::input(
+            Failure::new(
+                ErrorCode::Unused,
                 "--plot: there is nothing to draw where only fixtures are compared: leave it out",
             )
         })?;
@@ -167,7 +170,10 @@ pub(crate) fn run(args: &PlacingArgs, given: &Given) -> Answer<()> {
 /// Refuses a result without a feasible placement.
 fn refuse_nowhere(placed: &Placed, space: &Space) -> Answer<()> {
     match &placed.nowhere {
-        Some(nowhere) => Err(Failure::unanswered(text::nowhere_text(nowhere, space))),
+        Some(nowhere) => Err(Failure::new(
+            ErrorCode::NoAnswer,
+            text::nowhere_text(nowhere, space),
+        )),
         None => Ok(()),
     }
 }
@@ -187,7 +193,10 @@ fn refuse_what_says_nothing(given: &ProgramArgs) -> Answer<()> {
     } else {
         return Ok(());
     };
-    Err(Failure::input(format!("place has no use for {what}")))
+    Err(Failure::new(
+        ErrorCode::Unused,
+        format!("place has no use for {what}"),
+    ))
 }
 
 /// Largest turn allowed either way, degrees.
@@ -256,7 +265,7 @@ fn space(
             finite(&name, values)?;
             let ends = [values[0], values[1]];
             if let Some(fault) = fault(variable, ends) {
-                return Err(Failure::input(format!("{name}: {fault}")));
+                return Err(Failure::new(ErrorCode::Value, format!("{name}: {fault}")));
             }
             ends
         } else if let (Some(j), Some(ends)) = (job, table.and_then(|t| written(t, variable))) {
@@ -273,7 +282,7 @@ fn space(
     }
     let fixtures = fixtures(job, table)?;
     Space::new(given, ranges, fixtures, states_orientation)
-        .map_err(|error| Failure::input(error.to_string()))
+        .map_err(|error| Failure::new(ErrorCode::Value, error.to_string()))
 }
 
 fn fixtures(job: Option<&JobFile>, table: Option<&PlaceTable>) -> Answer<Vec<Fixture>> {

@@ -3,6 +3,7 @@
 use kinetostat_analysis::vibration::program::{
     ChatterQuestion, ProgramChatter, ProgramChatterError,
 };
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_dynamics::{Damping, Error};
 use kinetostat_machining::{
     ChatterResult, CutQuestion, ForceAlongPath, Run, Task, Warning, WarningCode, Watch,
@@ -13,7 +14,7 @@ use crate::job::chatter::ChatterSetting;
 use crate::job::cut::along::stopped_or_within;
 use crate::job::machine::MachineSetup;
 use crate::job::setting::Setting;
-use crate::ui::failure::{Answer, Code, Failure};
+use crate::ui::failure::{Answer, Failure};
 use crate::vibration::damping::{DampingArgs, words};
 use crate::vibration::stability::{damped, implausible, left_out_warning};
 use crate::vibration::subject;
@@ -54,12 +55,14 @@ impl<'a> Judging<'a> {
             "chatter needs",
         )?;
         let Some(cut) = &machine.cut else {
-            return Err(Failure::input(
+            return Err(Failure::new(
+                ErrorCode::Missing,
                 "the job says nothing of the cut: for chatter [material], a cutter of the tool, and [stock] or [engagement] are needed",
             ));
         };
         if machine.placement.orientation_follows {
-            return Err(Failure::input(
+            return Err(Failure::new(
+                ErrorCode::ModelUnsuited,
                 "the tool of this machine turns as it moves: chatter along a program is for machines that hold their tool as the program says",
             ));
         }
@@ -185,7 +188,7 @@ pub(crate) fn refused(error: ProgramChatterError, setting: &Setting) -> Failure 
             setting.within(failure)
         }
         ProgramChatterError::Tool(failure) => stopped_or_within(failure, setting),
-        ProgramChatterError::Cancelled => Failure::new(Code::Stopped, error),
-        other => setting.within(Failure::input(other)),
+        ProgramChatterError::Cancelled => Failure::new(ErrorCode::Stopped, error),
+        other => setting.within(Failure::new(ErrorCode::ProgramUnsuited, other)),
     }
 }

@@ -1,5 +1,6 @@
 //! Results of a run at the features of its job.
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{
     FeatureResult, PointResult, Run, RunResult, Warning, WarningCode, feature_results,
 };
@@ -81,6 +82,6 @@ pub(crate) fn refuse_missed_features(features: &[FeatureResult], setting: &Setti
         .collect();
     match missed.is_empty() {
         true => Ok(()),
-        false => Err(setting.within(Failure::tolerance_missed(missed.join("\n")))),
+        false => Err(setting.within(Failure::new(ErrorCode::ToleranceMissed, missed.join("\n")))),
     }
 }

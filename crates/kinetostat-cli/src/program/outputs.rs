@@ -1,5 +1,6 @@
 //! Outputs of a run along a program: claimed before the work begins, filled after it.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::PathBuf;
 
 use kinetostat_machining::{FileRead, Run};
@@ -196,8 +197,12 @@ impl RunOutputs {
                 Language::English => html_of_run_and_turns(run, chosen),
                 Language::French | Language::German => Ok(of.html()),
             };
-            let page = page
-                .map_err(|error| Failure::input(format!("the report cannot be made: {error}")))?;
+            let page = page.map_err(|error| {
+                Failure::new(
+                    ErrorCode::Internal,
+                    format!("the report cannot be made: {error}"),
+                )
+            })?;
             self.files.fill(index, page.as_bytes())?;
         }
         Ok(())

@@ -1,5 +1,6 @@
 //! The report to be signed: the hashes of what was written, and the document itself.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -14,7 +15,8 @@ use crate::ui::failure::{Answer, Failure};
 pub(crate) fn refuse_without_pdf() -> Answer<()> {
     match Paper::makes_pdf() {
         true => Ok(()),
-        false => Err(Failure::input(
+        false => Err(Failure::new(
+            ErrorCode::NotBuiltIn,
             "this build makes no PDF: the command line does (kinetostat compensate job.toml --pdf report.pdf); an HTML report can be printed",
         )),
     }
@@ -24,7 +26,7 @@ pub(crate) fn refuse_without_pdf() -> Answer<()> {
 pub(crate) fn pdf(paper: &Paper<'_>) -> Answer<Vec<u8>> {
     paper
         .pdf()
-        .map_err(|error| Failure::input(error.to_string()))
+        .map_err(|error| Failure::new(ErrorCode::Internal, error.to_string()))
 }
 
 /// Written files with their hashes.

@@ -1,6 +1,7 @@
 //! Points of a run as a table: one unit in every name, digits that mean something, a status in every
 //! row.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::collections::BTreeSet;
 
 use kinetostat_machining::{PointKind, PointResult, RunInputs, thinned};
@@ -277,7 +278,10 @@ fn bytes(writer: csv::Writer<Vec<u8>>) -> Answer<Vec<u8>> {
 }
 
 fn failed(error: csv::Error) -> Failure {
-    Failure::input(format!("the table of points cannot be made: {error}"))
+    Failure::new(
+        ErrorCode::Internal,
+        format!("the table of points cannot be made: {error}"),
+    )
 }
 
 #[cfg(test)]

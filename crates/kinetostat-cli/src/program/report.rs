@@ -1,10 +1,11 @@
 //! End of a run: its text and JSON on the screen, and the check of its tolerance.
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{RunResult, ToleranceResult};
 
 use crate::job::setting::Setting;
 use crate::program::flat_lines::WithSources;
-use crate::ui::failure::{Answer, Code, Failure};
+use crate::ui::failure::{Answer, Failure};
 use crate::ui::json::print_answer;
 use crate::ui::screen::{self, Stream};
 
@@ -14,7 +15,7 @@ pub(crate) fn refuse_missed_tolerance(
     setting: &Setting,
 ) -> Answer<()> {
     match tolerance.missed_text() {
-        Some(text) => Err(setting.within(Failure::tolerance_missed(text))),
+        Some(text) => Err(setting.within(Failure::new(ErrorCode::ToleranceMissed, text))),
         None => Ok(()),
     }
 }
@@ -26,7 +27,7 @@ pub(crate) fn refuse_doubtful(result: &RunResult, setting: &Setting) -> Answer<(
             let costliest = result.assessment.assumptions.first();
             let costliest = costliest.map_or("", |assumption| &assumption.text);
             let text = format!("{text} The costliest one: {costliest}");
-            Err(setting.within(Failure::new(Code::Doubtful, text)))
+            Err(setting.within(Failure::new(ErrorCode::Doubtful, text)))
         }
         None => Ok(()),
     }

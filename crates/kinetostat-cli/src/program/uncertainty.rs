@@ -1,5 +1,6 @@
 //! The band of a run's errors over machines that are not exactly as drawn.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::sync::Arc;
 
 use kinetostat::Wrench;
@@ -33,7 +34,8 @@ pub(crate) fn read(
     machine: &MachineSetup,
 ) -> Answer<UncertaintyFile> {
     if machine.placement.orientation_follows {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::ModelUnsuited,
             "the tool of this machine turns as it moves: the band of the errors (--uncertain, [uncertain] in the job) is for machines that hold the orientation of their tool; `kinetostat tolerance` answers for single places",
         ));
     }
@@ -42,10 +44,13 @@ pub(crate) fn read(
         WeightCorrection::NotStated | WeightCorrection::All
     );
     if contained && machine.mechanism.has_own_loads() {
-        return Err(Failure::input(format!(
-            "weight is \"{}\": the band of the errors (--uncertain, [uncertain] in the job) would hold the part where the machine as drawn measured it, though every machine sags by its own amount there; give weight = \"all\" (--weight all) for the band, or leave the band out",
-            machine.weight.word()
-        )));
+        return Err(Failure::new(
+            ErrorCode::Conflict,
+            format!(
+                "weight is \"{}\": the band of the errors (--uncertain, [uncertain] in the job) would hold the part where the machine as drawn measured it, though every machine sags by its own amount there; give weight = \"all\" (--weight all) for the band, or leave the band out",
+                machine.weight.word()
+            ),
+        ));
     }
     let (text, name) = (&uncertainty.text, &uncertainty.name);
     Ok(UncertaintyFile::read_along_program(text, name, model)?)
@@ -100,7 +105,7 @@ fn varied(
     let mut factors = [1.0; CUTTING_PARTS.len()];
     factors[part] = factor;
     let unknown = |why: &str| {
-        setting.within(Failure::input(format!(
+        setting.within(Failure::new(ErrorCode::Value, format!(
             "'{name}' is uncertain, and {why}: make all of the load uncertain (load = \"factor\")"
         )))
     };

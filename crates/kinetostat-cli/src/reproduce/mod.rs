@@ -2,6 +2,7 @@
 //!
 //! It takes the name of a table, an equation or a figure, or none, and gives the printed and the computed figures.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -37,7 +38,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Answer<()> {
     };
     let entries = computed(args.id.as_deref())?;
     if let Some(page) = page {
-        let text = html(&entries).map_err(Failure::unanswered)?;
+        let text = html(&entries).map_err(|error| Failure::new(ErrorCode::NoAnswer, error))?;
         outputs.fill(page, text.as_bytes())?;
     }
     let written = outputs.commit()?;
@@ -55,7 +56,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Answer<()> {
 pub(crate) fn computed(id: Option<&str>) -> Answer<Vec<Entry>> {
     let failure_of = |error: ReproduceError| match error {
         ReproduceError::Unknown(id) => unknown(&id),
-        error => Failure::unanswered(error),
+        error => Failure::new(ErrorCode::NoAnswer, error),
     };
     if let Some(id) = id {
         return Ok(vec![one(id).map_err(failure_of)?]);
@@ -83,10 +84,13 @@ fn unknown(id: &str) -> Failure {
             format!("; did you mean '{known}'?")
         });
     let list = wrapped(&IDS.join(" "), 2);
-    Failure::input(format!(
-        "there is no entry '{id}'{nearest}\nThere are:\n{}",
-        list.trim_end()
-    ))
+    Failure::new(
+        ErrorCode::UnknownName,
+        format!(
+            "there is no entry '{id}'{nearest}\nThere are:\n{}",
+            list.trim_end()
+        ),
+    )
 }
 
 /// Words of a status, as in the legend of the summary.

@@ -3,11 +3,13 @@
 //! Each command declares its forms of results beside its code; the list here names them by command.
 
 use clap::Args;
+use kinetostat_diagnostic::ErrorCode;
 use schemars::generate::SchemaSettings;
 use schemars::{Schema, json_schema};
 
 use crate::options::EXIT_CODES;
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::json::ErrorReport;
 use crate::ui::layout::listed;
 use crate::ui::result_form::ResultForm;
 use crate::ui::screen::{self, Stream};
@@ -44,7 +46,11 @@ const COMMANDS: &[(&str, &[ResultForm])] = &[
     ("import", import::RESULTS),
     ("reproduce", reproduce::RESULTS),
     ("model", model::RESULTS),
+    ("error", ERRORS),
 ];
+
+/// Errors have one form for all commands.
+const ERRORS: &[ResultForm] = &[ResultForm::of::<ErrorReport>("errors of any command")];
 
 pub(crate) fn run(args: &SchemaArgs) -> Answer<()> {
     let Some(name) = &args.command else {
@@ -61,13 +67,17 @@ pub(crate) fn run(args: &SchemaArgs) -> Answer<()> {
     let found = COMMANDS.iter().find(|(command, _)| command == name);
     let (command, forms) = found.ok_or_else(|| {
         let names: Vec<&str> = COMMANDS.iter().map(|(command, _)| *command).collect();
-        Failure::input(format!(
-            "'{name}' is no command with a result as JSON; there are: {}",
-            names.join(", ")
-        ))
+        Failure::new(
+            ErrorCode::UnknownName,
+            format!(
+                "'{name}' is no command with a result as JSON; there are: {}",
+                names.join(", ")
+            ),
+        )
     })?;
     let text = serde_json::to_string_pretty(&document(command, forms));
-    let text = text.map_err(|error| Failure::input(format!("the schema: {error}")))?;
+    let text =
+        text.map_err(|error| Failure::new(ErrorCode::Internal, format!("the schema: {error}")))?;
     screen::print_bytes(format!("{text}\n").as_bytes())
 }
 

@@ -7,6 +7,7 @@ mod answer;
 pub(crate) mod arguments;
 mod text;
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat::{Posture, Wrench};
@@ -95,7 +96,7 @@ fn direction(args: &SharesArgs) -> Answer<(Wrench, String)> {
     let along = vector("--along", along)?;
     let length = along.norm();
     if length == 0.0 {
-        return Err(Failure::input("--along has no length"));
+        return Err(Failure::new(ErrorCode::Value, "--along has no length"));
     }
     let words = format!("a force along {}", triple(along.into(), short));
     Ok((Wrench::new(along / length, Vector3::zeros()), words))
@@ -103,8 +104,8 @@ fn direction(args: &SharesArgs) -> Answer<(Wrench, String)> {
 
 fn refused(error: &SharesError) -> Failure {
     match error {
-        SharesError::NoDirection => Failure::input(error.to_string()),
-        _ => Failure::unanswered(error),
+        SharesError::NoDirection => Failure::new(ErrorCode::Value, error.to_string()),
+        _ => Failure::new(ErrorCode::NoAnswer, error),
     }
 }
 
@@ -117,9 +118,10 @@ fn stiffening(
         return Ok(None);
     };
     if !(percent > 0.0 && percent < 100.0) {
-        return Err(Failure::input(format!(
-            "--reduce-percent is {percent}; it lies between 0 and 100"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!("--reduce-percent is {percent}; it lies between 0 and 100"),
+        ));
     }
     let target = 1.0 - 0.01 * percent;
     let found = stiffen(posture, direction, target, |_| 1.0).map_err(|e| refused(&e))?;
@@ -145,6 +147,7 @@ fn derivatives(
         wrench: query.wrench,
         direction,
     };
-    let found = sensitivities(&task, &[]).map_err(Failure::unanswered)?;
+    let found =
+        sensitivities(&task, &[]).map_err(|error| Failure::new(ErrorCode::UnknownName, error))?;
     Ok(SensitivitiesAnswer::of(&found))
 }

@@ -2,6 +2,7 @@
 //!
 //! It takes the command line itself, from above, and gives files made of it.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -22,7 +23,12 @@ pub(crate) fn man(args: &ManArgs, mut root: clap::Command) -> Answer<()> {
         let mut bytes = Vec::new();
         clap_mangen::Man::new(command.clone())
             .render(&mut bytes)
-            .map_err(|error| Failure::input(format!("the manual page cannot be made: {error}")))?;
+            .map_err(|error| {
+                Failure::new(
+                    ErrorCode::Internal,
+                    format!("the manual page cannot be made: {error}"),
+                )
+            })?;
         Ok(bytes)
     };
     let Some(directory) = &args.out else {

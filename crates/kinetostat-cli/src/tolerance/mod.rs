@@ -7,6 +7,7 @@ mod answer;
 pub(crate) mod arguments;
 mod text;
 
+use kinetostat_diagnostic::ErrorCode;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
@@ -38,7 +39,7 @@ impl From<TaskError> for Failure {
         match error {
             TaskError::Model(error) => error.into(),
             TaskError::Core(error) => error.into(),
-            other => Self::unanswered(other.to_string()),
+            other => Self::new(ErrorCode::NoAnswer, other.to_string()),
         }
     }
 }
@@ -52,7 +53,7 @@ pub(crate) fn run(args: &ToleranceArgs) -> Answer<()> {
     model.require_stiffness()?;
     let queries = queries(args, &model, path.as_ref())?;
     let Some(first) = queries.first() else {
-        return Err(Failure::input("give a place with --at"));
+        return Err(Failure::new(ErrorCode::Missing, "give a place with --at"));
     };
     let study = Study::of(args, &model, &queries, &first.wrench)?;
     let inputs = path.iter().cloned().chain([args.uncertain.clone()]);
@@ -148,7 +149,8 @@ impl Study {
         let draws = drawn("--machines", count, args, machine.width())?;
         let for_sobol = match args.sobol {
             Some(_) if file.uncertainties.is_correlated() => {
-                return Err(Failure::input(
+                return Err(Failure::new(
+                    ErrorCode::Conflict,
                     "--sobol: parts of the variance belong to single numbers only where none are correlated; leave out the correlations, or --sobol",
                 ));
             }
@@ -230,12 +232,13 @@ fn drawn(option: &str, count: usize, args: &ToleranceArgs, width: usize) -> Answ
     // The confidence interval of an index needs a few draws of each of the sequences.
     let least = if option == "--sobol" { 128 } else { 16 };
     if !(least..=MOST_DRAWS).contains(&count) {
-        return Err(Failure::input(format!(
-            "{option} {count}: {least} to {MOST_DRAWS} can be drawn"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!("{option} {count}: {least} to {MOST_DRAWS} can be drawn"),
+        ));
     }
     can_be_kept(count, width).map_err(|many| {
-        Failure::input(format!(
+        Failure::new(ErrorCode::Value, format!(
             "{option} {count}: with all places and results {many}; take fewer places or machines, or ask for less with --only"
         ))
     })?;

@@ -1,6 +1,7 @@
 //! Long work of the core that cannot be interrupted from inside: it runs on a thread of its own
 //! while this one looks for Ctrl-C and shows that something happens.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
@@ -59,7 +60,8 @@ pub(crate) fn interruptible<R: Send + 'static>(
                 }
             }
             Err(RecvTimeoutError::Disconnected) => {
-                break Err(Failure::unanswered(
+                break Err(Failure::new(
+                    ErrorCode::Internal,
                     "the search ended by itself, which it never should: please report this command and its model",
                 ));
             }

@@ -1,6 +1,7 @@
 //! Tables for programs: full precision, as CSV.
 
 use crate::ui::failure::{Answer, Failure};
+use kinetostat_diagnostic::ErrorCode;
 
 /// A number that reads back to the same bits; empty where there is none.
 pub(crate) fn cell(x: f64) -> String {
@@ -17,8 +18,12 @@ pub(crate) fn cell_if_any(x: Option<f64>) -> String {
 }
 
 pub(crate) fn written(rows: &[Vec<String>]) -> Answer<Vec<u8>> {
-    let failed =
-        |error: csv::Error| Failure::input(format!("the table cannot be written: {error}"));
+    let failed = |error: csv::Error| {
+        Failure::new(
+            ErrorCode::Output,
+            format!("the table cannot be written: {error}"),
+        )
+    };
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in rows {
         writer.write_record(row).map_err(failed)?;

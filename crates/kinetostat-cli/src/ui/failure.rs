@@ -3,9 +3,10 @@
 use std::fmt::Display;
 use std::ops::Range;
 
+use kinetostat_diagnostic::{Diagnostic, ErrorCode, Location};
 use kinetostat_machining::RunError;
 use kinetostat_machining::number::apart;
-use kinetostat_model::{ModelError, TextStyle, shortened};
+use kinetostat_model::{ModelError, Problem, TextStyle, shortened};
 use kinetostat_program::WriteError;
 
 use crate::ui::numbers::pose_text;
@@ -26,9 +27,26 @@ pub(crate) enum Code {
     Stopped = 130,
 }
 
+/// Exit code of a kind of error.
+fn exit_code(code: ErrorCode) -> Code {
+    match code {
+        ErrorCode::Unreachable
+        | ErrorCode::OutsideLimits
+        | ErrorCode::NoClosure
+        | ErrorCode::NotConverged
+        | ErrorCode::FreeDirection
+        | ErrorCode::NoAnswer => Code::Unanswered,
+        ErrorCode::ToleranceMissed => Code::ToleranceMissed,
+        ErrorCode::Doubtful => Code::Doubtful,
+        ErrorCode::Stopped => Code::Stopped,
+        _ => Code::WrongInput,
+    }
+}
+
 /// Report before the program ends.
 #[derive(Clone, Debug)]
 pub(crate) struct Failure {
+    /// Exit code of the process.
     pub(crate) code: Code,
     /// Plain text, safe for a terminal.
     pub(crate) plain: String,
@@ -38,33 +56,24 @@ pub(crate) struct Failure {
     pub(crate) place: Option<Range<usize>>,
     /// True if the content of the program was refused: the settings for reading it are right.
     pub(crate) is_of_program: bool,
+    /// Kind of the error.
+    kind: ErrorCode,
+    /// The faults one by one, where there are several or where they have a location.
+    faults: Vec<Diagnostic>,
 }
 
 pub(crate) type Answer<T> = Result<T, Failure>;
 
 impl Failure {
-    /// Wrong input.
-    pub(crate) fn input(message: impl Display) -> Self {
-        Self::new(Code::WrongInput, message)
-    }
-
-    /// Failure: no answer exists or none was found.
-    pub(crate) fn unanswered(message: impl Display) -> Self {
-        Self::new(Code::Unanswered, message)
-    }
-
-    /// A written program that misses its tolerance.
-    pub(crate) fn tolerance_missed(message: impl Display) -> Self {
-        Self::new(Code::ToleranceMissed, message)
-    }
-
-    pub(crate) fn new(code: Code, message: impl Display) -> Self {
+    pub(crate) fn new(kind: ErrorCode, message: impl Display) -> Self {
         Self {
-            code,
+            code: exit_code(kind),
             plain: safe(&shortened(&message.to_string())),
             styled: None,
             place: None,
             is_of_program: false,
+            kind,
+            faults: Vec::new(),
         }
     }
 
@@ -82,18 +91,37 @@ impl Failure {
             styled: Some(styled.join("\n\n")),
             place: None,
             is_of_program: false,
+            kind: failures.first().map_or(ErrorCode::Internal, |f| f.kind),
+            faults: failures.iter().flat_map(Self::diagnostics).collect(),
         }
     }
 
     /// Found at a place of the job file: the text with its line is whole, and safe.
-    pub(crate) fn located(plain: String, styled: String, place: Range<usize>) -> Self {
+    pub(crate) fn located(problem: &Problem, place: Range<usize>) -> Self {
+        let plain = problem.rendered(TextStyle::Plain);
         Self {
             code: Code::WrongInput,
-            plain,
-            styled: Some(styled),
+            plain: plain.strip_prefix("error: ").unwrap_or(plain).to_owned(),
+            styled: Some(problem.rendered(TextStyle::Terminal).to_owned()),
             place: Some(place),
             is_of_program: false,
+            kind: ErrorCode::JobFile,
+            faults: vec![of_problem(ErrorCode::JobFile, problem)],
         }
+    }
+
+    /// The faults for programs.
+    pub(crate) fn diagnostics(&self) -> Vec<Diagnostic> {
+        match self.faults.is_empty() {
+            true => vec![Diagnostic::new(self.kind, &self.plain)],
+            false => self.faults.clone(),
+        }
+    }
+
+    /// Adds the faults one by one.
+    pub(crate) fn with_faults(mut self, faults: impl IntoIterator<Item = Diagnostic>) -> Self {
+        self.faults.extend(faults);
+        self
     }
 
     /// Adds a possible reason.
@@ -121,16 +149,31 @@ impl Failure {
     }
 }
 
+/// A problem of a model or job file, for programs.
+fn of_problem(code: ErrorCode, problem: &Problem) -> Diagnostic {
+    let some = |text: &str| (!text.is_empty()).then(|| text.to_owned());
+    let mut diagnostic = Diagnostic::new(code, &problem.message);
+    diagnostic.location = Location {
+        file: some(&problem.file),
+        line: problem.line,
+        column: problem.column,
+        name: some(&problem.path),
+    };
+    diagnostic.remedy = some(&problem.help);
+    diagnostic
+}
+
 impl From<ModelError> for Failure {
     fn from(error: ModelError) -> Self {
         let plain = error.rendered(TextStyle::Plain);
+        let plain = plain.strip_prefix("error: ").unwrap_or(&plain).to_owned();
+        let faults = error.problems().iter();
+        let faults = faults.map(|problem| of_problem(ErrorCode::ModelFile, problem));
         Self {
-            code: Code::WrongInput,
             // The model crate has made its text safe; its line structure is wanted.
-            plain: plain.strip_prefix("error: ").unwrap_or(&plain).to_owned(),
+            plain,
             styled: Some(error.rendered(TextStyle::Terminal)),
-            place: None,
-            is_of_program: false,
+            ..Self::new(ErrorCode::ModelFile, "").with_faults(faults)
         }
     }
 }
@@ -142,11 +185,28 @@ impl From<RunError> for Failure {
     fn from(error: RunError) -> Self {
         match error {
             RunError::Cancelled | RunError::Write(WriteError::Cancelled) => {
-                Self::new(Code::Stopped, STOPPED)
+                Self::new(ErrorCode::Stopped, STOPPED)
             }
-            error if error.is_unanswered() => Self::unanswered(error),
-            error => Self::input(error),
+            RunError::Point { ref cause, .. } | RunError::TouchOff { ref cause, .. } => {
+                Self::new(code_of(cause), error)
+            }
+            error if error.is_unanswered() => Self::new(ErrorCode::NoAnswer, error),
+            error => Self::new(ErrorCode::ProgramUnsuited, error),
         }
+    }
+}
+
+/// Kind of an error of the mechanics.
+fn code_of(error: &kinetostat::Error) -> ErrorCode {
+    match error {
+        kinetostat::Error::Unreachable { .. } => ErrorCode::Unreachable,
+        kinetostat::Error::OutsideLimits { .. } => ErrorCode::OutsideLimits,
+        kinetostat::Error::NoClosure { .. } => ErrorCode::NoClosure,
+        kinetostat::Error::NotConverged { .. } => ErrorCode::NotConverged,
+        kinetostat::Error::FreeDirection { .. } => ErrorCode::FreeDirection,
+        kinetostat::Error::UnknownName { .. } => ErrorCode::UnknownName,
+        kinetostat::Error::Model { .. } => ErrorCode::ModelUnsuited,
+        _ => ErrorCode::Value,
     }
 }
 
@@ -182,10 +242,6 @@ impl From<kinetostat::Error> for Failure {
             other => other.to_string(),
         };
         let message = format!("{reported}{advice}");
-        if error.is_unanswered() {
-            Self::unanswered(message)
-        } else {
-            Self::input(message)
-        }
+        Self::new(code_of(&error), message)
     }
 }

@@ -3,6 +3,134 @@
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
+use kinetostat_diagnostic::{Diagnostic, ErrorCode, Location};
+use kinetostat_formats::{MakeError, PathError, ProgramError, ProgramFault};
+use kinetostat_program::{MapError, ProgramError as GcodeError};
+
+use crate::ui::failure::Failure;
+
+/// A fault of a file, one of several.
+pub(crate) trait Fault: Display {
+    /// The reason alone, by which faults are gathered.
+    fn reason(&self) -> &str;
+
+    /// The fault for programs.
+    fn diagnostic(&self) -> Diagnostic;
+}
+
+/// A fault of a line; its parts are those of [`Diagnostic`].
+fn at_line(
+    code: ErrorCode,
+    file: Option<&str>,
+    line: Option<usize>,
+    found: Option<&str>,
+    reason: &str,
+    remedy: &str,
+) -> Diagnostic {
+    let mut diagnostic = Diagnostic::new(code, reason);
+    diagnostic.location = Location {
+        file: file.map(str::to_owned),
+        line,
+        ..Location::default()
+    };
+    diagnostic.found = found.map(str::to_owned);
+    diagnostic.remedy = Some(remedy.to_owned());
+    diagnostic
+}
+
+impl Fault for ProgramError {
+    fn reason(&self) -> &str {
+        &self.reason
+    }
+
+    fn diagnostic(&self) -> Diagnostic {
+        let (file, line) = (Some(self.file.as_str()), Some(self.line));
+        let found = Some(self.found.as_str());
+        let code = ErrorCode::ProgramRefused;
+        at_line(code, file, line, found, &self.reason, &self.remedy)
+    }
+}
+
+impl Fault for GcodeError {
+    fn reason(&self) -> &str {
+        &self.reason
+    }
+
+    fn diagnostic(&self) -> Diagnostic {
+        let (line, found) = (Some(self.line), Some(self.found.as_str()));
+        let code = ErrorCode::ProgramRefused;
+        at_line(code, None, line, found, &self.reason, &self.remedy)
+    }
+}
+
+impl Fault for MakeError {
+    fn reason(&self) -> &str {
+        &self.reason
+    }
+
+    fn diagnostic(&self) -> Diagnostic {
+        let code = match self.is_of_template {
+            true => ErrorCode::JobFile,
+            false => ErrorCode::ProgramRefused,
+        };
+        at_line(code, None, self.line, None, &self.reason, &self.remedy)
+    }
+}
+
+impl Fault for PathError {
+    fn reason(&self) -> &str {
+        &self.reason
+    }
+
+    fn diagnostic(&self) -> Diagnostic {
+        let (file, line) = (Some(self.file.as_str()), Some(self.line));
+        let code = ErrorCode::ProgramRefused;
+        at_line(code, file, line, None, &self.reason, &self.remedy)
+    }
+}
+
+impl Fault for ProgramFault {
+    fn reason(&self) -> &str {
+        Self::reason(self)
+    }
+
+    fn diagnostic(&self) -> Diagnostic {
+        match self {
+            Self::Text(fault) => fault.diagnostic(),
+            Self::Path(fault) => fault.diagnostic(),
+            other => Diagnostic::new(ErrorCode::ProgramRefused, other.to_string()),
+        }
+    }
+}
+
+impl Fault for MapError {
+    fn reason(&self) -> &str {
+        &self.reason
+    }
+
+    fn diagnostic(&self) -> Diagnostic {
+        let line = usize::try_from(self.line).ok();
+        let found = Some(self.found.as_str());
+        at_line(
+            ErrorCode::FileForm,
+            None,
+            line,
+            found,
+            &self.reason,
+            &self.remedy,
+        )
+    }
+}
+
+/// All faults of a file, or the only one, as a failure; `places` is what they are: `lines`.
+pub(crate) fn failure_of<F: Fault>(code: ErrorCode, places: &str, first: &F, all: &[F]) -> Failure {
+    let failure = Failure::new(code, fault_list_text(places, first, all));
+    match all {
+        [] => failure.with_faults([first.diagnostic()]),
+        all => failure.with_faults(all.iter().map(Fault::diagnostic)),
+    }
+}
+
 /// Faults of one reason that are listed; further ones are counted.
 const FAULTS_OF_A_REASON: usize = 3;
 
@@ -13,12 +141,7 @@ const PLACES_NAMED: usize = 500;
 const FAULTS_SHOWN: usize = 40;
 
 /// All faults of a file in the order of its lines, or the only one.
-pub(crate) fn fault_list_text<'f, F: Display>(
-    places: &str,
-    first: &F,
-    all: &'f [F],
-    reason: impl Fn(&'f F) -> &'f str,
-) -> String {
+pub(crate) fn fault_list_text<F: Fault>(places: &str, first: &F, all: &[F]) -> String {
     if all.len() < 2 {
         return first.to_string();
     }
@@ -30,7 +153,7 @@ pub(crate) fn fault_list_text<'f, F: Display>(
     let mut further: Vec<(&str, usize, Vec<String>)> = Vec::new();
     let mut of_reason: BTreeMap<&str, usize> = BTreeMap::new();
     for fault in all {
-        let reason = reason(fault);
+        let reason = fault.reason();
         let count = counts.entry(reason).or_default();
         *count += 1;
         if *count <= FAULTS_OF_A_REASON && shown < FAULTS_SHOWN {

@@ -1,13 +1,27 @@
 //! The options that stand on the command line, so that a command refuses those that it has no use for.
 
+use std::path::{Path, PathBuf};
+
 use clap::ArgMatches;
 use clap::parser::ValueSource;
+use kinetostat_diagnostic::ErrorCode;
 
 use crate::ui::failure::{Answer, Failure};
 
 /// Options that were given, as they are written.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Given(Vec<String>);
+pub(crate) struct Given {
+    options: Vec<String>,
+    /// True if the result is to be printed as JSON, and not only written to a file.
+    pub(crate) json_on_screen: bool,
+}
+
+/// `--json` is a flag in some commands, and takes the name of a file, or `-`, in the others.
+fn json_on_screen(matches: &ArgMatches) -> bool {
+    let file = matches.try_get_one::<PathBuf>("json").ok().flatten();
+    let flag = matches.try_get_one::<bool>("json").ok().flatten();
+    file.is_some_and(|file| file == Path::new("-")) || flag.is_some_and(|flag| *flag)
+}
 
 impl Given {
     /// The options of the command that was called.
@@ -28,7 +42,10 @@ impl Given {
             source == Some(ValueSource::CommandLine)
         });
         let own = own.filter_map(|argument| Some(format!("--{}", argument.get_long()?)));
-        Self(own.chain(inner.0).collect())
+        Self {
+            options: own.chain(inner.options).collect(),
+            json_on_screen: inner.json_on_screen || json_on_screen(matches),
+        }
     }
 
     /// Refuses every option but these; `why` says what the others are for.
@@ -42,8 +59,8 @@ impl Given {
     }
 
     fn refuse_first(&self, is_unused: impl Fn(&str) -> bool, why: &str) -> Answer<()> {
-        match self.0.iter().find(|option| is_unused(option)) {
-            Some(option) => Err(Failure::input(format!("{option} {why}"))),
+        match self.options.iter().find(|option| is_unused(option)) {
+            Some(option) => Err(Failure::new(ErrorCode::Unused, format!("{option} {why}"))),
             None => Ok(()),
         }
     }

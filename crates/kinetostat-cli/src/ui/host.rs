@@ -45,6 +45,12 @@ impl Host {
         to.extend_from_slice(bytes);
     }
 
+    /// True if something was printed to the standard output.
+    pub(crate) fn has_printed(&self) -> bool {
+        let out = self.out.lock().unwrap_or_else(PoisonError::into_inner);
+        !out.is_empty()
+    }
+
     /// Takes the text printed to the standard output and to the standard error.
     pub(crate) fn printed(&self) -> (Vec<u8>, Vec<u8>) {
         let all = |from: &Mutex<Vec<u8>>| {

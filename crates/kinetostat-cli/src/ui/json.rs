@@ -1,5 +1,6 @@
 //! Results as JSON, and with it on the screen.
 
+use kinetostat_diagnostic::{Diagnostic, ErrorCode};
 use std::io::{self, Write};
 
 use schemars::JsonSchema;
@@ -14,11 +15,18 @@ pub(crate) fn json<T: Serialize + JsonSchema>(value: &T) -> Answer<String> {
     let mut bytes = Vec::new();
     let mut serializer = Serializer::with_formatter(&mut bytes, UnsignedZero::default());
     value.serialize(&mut serializer).map_err(|error| {
-        Failure::input(format!("the result cannot be written as JSON: {error}"))
+        Failure::new(
+            ErrorCode::Internal,
+            format!("the result cannot be written as JSON: {error}"),
+        )
     })?;
     bytes.push(b'\n');
-    String::from_utf8(bytes)
-        .map_err(|error| Failure::input(format!("the result cannot be written as JSON: {error}")))
+    String::from_utf8(bytes).map_err(|error| {
+        Failure::new(
+            ErrorCode::Internal,
+            format!("the result cannot be written as JSON: {error}"),
+        )
+    })
 }
 
 /// Methods of a [`Formatter`] that are those of the usual one.
@@ -44,6 +52,32 @@ impl Formatter for UnsignedZero {
         begin_array() end_array() begin_array_value(first: bool) end_array_value()
         begin_object() end_object() begin_object_key(first: bool) begin_object_value() end_object_value()
     }
+}
+
+/// Errors of a command, as programs read them.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct ErrorReport {
+    schema: u32,
+    kinetostat_version: &'static str,
+    /// Exit code of the process.
+    exit_code: u8,
+    /// The faults, in the order in which the text names them.
+    errors: Vec<Diagnostic>,
+}
+
+/// Prints a failure as JSON on the standard output, unless a result stands there.
+pub(crate) fn print_errors(failure: &Failure) {
+    if screen::has_printed() {
+        return;
+    }
+    let report = ErrorReport {
+        schema: 1,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        exit_code: failure.code as u8,
+        errors: failure.diagnostics(),
+    };
+    // Nothing can be done if even that cannot be written.
+    let _ = json(&report).and_then(|text| screen::print_bytes(text.as_bytes()));
 }
 
 /// The text of an answer; with `as_json` the answer itself on the standard output, and the text beside it.

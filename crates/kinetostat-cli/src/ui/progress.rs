@@ -1,5 +1,6 @@
 //! Progress of long work on a terminal, and Ctrl-C.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
@@ -27,7 +28,7 @@ pub(crate) fn catch_interrupts(remove_temporary: fn()) {
         STOP.store(true, Ordering::SeqCst);
         std::thread::sleep(PATIENCE);
         remove_temporary();
-        screen::complain(&Failure::new(Code::Stopped, STOPPED));
+        screen::complain(&Failure::new(ErrorCode::Stopped, STOPPED));
         std::process::exit(Code::Stopped as i32);
     };
     // A file that outgrows its limit (`ulimit -f`) is then an error of writing, and temporary files are removed.
@@ -214,7 +215,7 @@ fn stopped(host: Option<&Host>) -> bool {
 /// That it was stopped.
 pub(crate) fn still_wanted() -> Answer<()> {
     match host::current() {
-        Some(host) if host.watch().cancelled() => Err(Failure::new(Code::Stopped, STOPPED)),
+        Some(host) if host.watch().cancelled() => Err(Failure::new(ErrorCode::Stopped, STOPPED)),
         _ => Ok(()),
     }
 }

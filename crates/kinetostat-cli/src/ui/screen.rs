@@ -1,7 +1,9 @@
 //! The only module that prints. Results go to the standard output, everything about them to the
 //! standard error; with `--json` the text for people goes there too.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::io::{ErrorKind, IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::error::ErrorKind as ClapKind;
 use kinetostat_model::shortened;
@@ -10,6 +12,17 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::host;
 pub(crate) use crate::ui::host::Stream;
 use crate::ui::safe_text::safe;
+
+/// True once something stands on the standard output.
+static HAS_PRINTED: AtomicBool = AtomicBool::new(false);
+
+/// True if the command has printed something on the standard output.
+pub(crate) fn has_printed() -> bool {
+    match host::current() {
+        Some(host) => host.has_printed(),
+        None => HAS_PRINTED.load(Ordering::Relaxed),
+    }
+}
 
 /// Prints text without a line break after it. That the reader has closed the pipe is no failure.
 pub(crate) fn print(stream: Stream, text: &str) -> Answer<()> {
@@ -21,7 +34,10 @@ pub(crate) fn print(stream: Stream, text: &str) -> Answer<()> {
         return Ok(());
     }
     let result = match stream {
-        Stream::Out => write(&mut anstream::stdout().lock(), text.as_bytes()),
+        Stream::Out => {
+            HAS_PRINTED.store(true, Ordering::Relaxed);
+            write(&mut anstream::stdout().lock(), text.as_bytes())
+        }
         Stream::Err => write(&mut anstream::stderr().lock(), text.as_bytes()),
     };
     unless_closed(result)
@@ -33,6 +49,7 @@ pub(crate) fn print_bytes(bytes: &[u8]) -> Answer<()> {
         host.take(Stream::Out, bytes);
         return Ok(());
     }
+    HAS_PRINTED.store(true, Ordering::Relaxed);
     unless_closed(write(&mut std::io::stdout().lock(), bytes))
 }
 
@@ -45,10 +62,13 @@ fn unless_closed(result: std::io::Result<()>) -> Answer<()> {
     match result {
         // The reader has seen enough (`| head`): that is no failure.
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
-        Err(error) => Err(Failure::input(format!(
-            "the standard output cannot be written: {}",
-            crate::ui::system_error::description(&error)
-        ))),
+        Err(error) => Err(Failure::new(
+            ErrorCode::Output,
+            format!(
+                "the standard output cannot be written: {}",
+                crate::ui::system_error::description(&error)
+            ),
+        )),
         Ok(()) => Ok(()),
     }
 }

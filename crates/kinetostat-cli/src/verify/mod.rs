@@ -19,6 +19,7 @@ mod text;
 mod tilted;
 mod written;
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use crate::files::input_files::InputFiles;
@@ -152,7 +153,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         true => refuse_doubtful(&assessed, &verified),
         false => {
             let faults = answer.faults().join("\n");
-            Err(Failure::tolerance_missed(faults).within(&verified.program_name))
+            Err(Failure::new(ErrorCode::ToleranceMissed, faults).within(&verified.program_name))
         }
     }
 }
@@ -171,7 +172,10 @@ fn refuse_what_says_nothing(given: &ProgramArgs) -> Answer<()> {
     } else {
         return Ok(());
     };
-    Err(Failure::input(format!("verify has no use for {what}")))
+    Err(Failure::new(
+        ErrorCode::Unused,
+        format!("verify has no use for {what}"),
+    ))
 }
 
 /// A program and how it is read.

@@ -1,6 +1,7 @@
 //! The machine along the program that is verified, and what that has otherwise than its original.
 
 use kinetostat::Directions;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::Template;
 use kinetostat_machining::{Assumption, Condition, RunError, Verified, verify_program};
 
@@ -50,7 +51,7 @@ pub(crate) fn solved(
     let read = read_program(original)?;
     let other = read_program(verified)?;
     if !other.path().moves.iter().any(is_cut) {
-        return Err(verified.within(Failure::input(
+        return Err(verified.within(Failure::new(ErrorCode::ProgramUnsuited,
             "the program has no move at feed that begins at a place it states, so that there is nothing to verify: name the program that was compensated, and the original as --against",
         )));
     }
@@ -161,7 +162,7 @@ impl Both<'_> {
             true => Failure::from(error),
             false => {
                 faults.push(error.to_string());
-                Failure::tolerance_missed(faults.join("\n"))
+                Failure::new(ErrorCode::ToleranceMissed, faults.join("\n"))
             }
         })
     }

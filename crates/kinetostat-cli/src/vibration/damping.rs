@@ -1,6 +1,7 @@
 //! Options that say how vibrations are damped.
 
 use clap::Args;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_dynamics::Damping;
 
 use crate::options::number;
@@ -48,15 +49,17 @@ impl DampingArgs {
             };
             Damping::Viscous(self.viscous.iter().map(read).collect::<Answer<_>>()?)
         };
-        law.check().map_err(Failure::input)?;
+        law.check()
+            .map_err(|error| Failure::new(ErrorCode::Value, error))?;
         Ok(law)
     }
 }
 
 fn wrong_damper(text: &str) -> Failure {
-    Failure::input(format!(
-        "--viscous {text}: a joint and a number are needed, as in joint_1=900"
-    ))
+    Failure::new(
+        ErrorCode::Value,
+        format!("--viscous {text}: a joint and a number are needed, as in joint_1=900"),
+    )
 }
 
 /// The law in words.

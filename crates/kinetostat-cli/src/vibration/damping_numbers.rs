@@ -1,5 +1,6 @@
 //! The numbers of a law of damping by name, to be scaled.
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_dynamics::Damping;
 
 use crate::ui::failure::{Answer, Failure};
@@ -54,7 +55,7 @@ pub(crate) fn named(law: &Damping, path: &str) -> Answer<DampingNumber> {
     let known: Vec<String> = all.iter().map(|own| own.path.clone()).collect();
     let found = all.into_iter().find(|own| own.path == path);
     found.ok_or_else(|| {
-        Failure::input(match known.is_empty() {
+        Failure::new(ErrorCode::UnknownName, match known.is_empty() {
             true => format!(
                 "--scale {path}: there is no damping to scale; give a first value, as with --damping 0.03"
             ),

@@ -1,6 +1,7 @@
 //! Common parts of `lobes` and `chatter`: the check for damping, modes that are left out, and the name of an instability.
 
 use kinetostat_chatter::{Instability, LeftOut, Swinging};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_dynamics::Damping;
 use kinetostat_machining::{Warning, WarningCode};
 
@@ -15,9 +16,12 @@ const GREAT: f64 = 0.5;
 /// number) says so.
 pub(crate) fn damped(args: &DampingArgs, of_model: &Damping, who: &str) -> Answer<Damping> {
     match args.law(of_model)? {
-        Damping::Undamped => Err(Failure::input(format!(
-            "{who} damping: without it the smallest cut chatters at every speed. Give measured ratios here or in the model ([damping]), or for a first look --damping 0.03"
-        ))),
+        Damping::Undamped => Err(Failure::new(
+            ErrorCode::Missing,
+            format!(
+                "{who} damping: without it the smallest cut chatters at every speed. Give measured ratios here or in the model ([damping]), or for a first look --damping 0.03"
+            ),
+        )),
         damping => Ok(damping),
     }
 }

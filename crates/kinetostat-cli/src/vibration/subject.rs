@@ -1,5 +1,6 @@
 //! The machine of a question about vibrations.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat::number::larger;
@@ -23,9 +24,10 @@ pub(crate) fn query(args: &VibrationArgs) -> Answer<PlaceQuery> {
     read.require_stiffness()?;
     if let Some(mass_kg) = args.tool_mass_kg {
         if !MASSES_KG.contains(&mass_kg) {
-            return Err(Failure::input(format!(
-                "--tool-mass-kg is {mass_kg}; the mass of a tool is from 0.001 to 5000 kg"
-            )));
+            return Err(Failure::new(
+                ErrorCode::Value,
+                format!("--tool-mass-kg is {mass_kg}; the mass of a tool is from 0.001 to 5000 kg"),
+            ));
         }
         let halfway = Vector3::z() * (0.5 * args.tool_length_mm.unwrap_or(0.0));
         let stated = args.tool_centre_of_mass_mm.as_deref();
@@ -91,11 +93,14 @@ fn line_of(error: &Error, query: &PlaceQuery) -> Option<String> {
 pub(crate) fn refused(error: Error) -> Failure {
     match error {
         Error::Statics(error) => error.into(),
-        Error::NoMass(name) => Failure::input(format!(
-            "'{name}' has no mass anywhere, so it has no frequencies. Add masses to the model file: {{ body = \"upper arm mass\", mass_kg = 270, centre_of_mass_mm = [0, 0, -625], inertia_kg_m2 = [[..], [..], [..]] }} behind a joint or link of a chain, or mass_kg, centre_of_mass_mm and inertia_kg_m2 of a moving body (platform)"
-        )),
-        Error::NotSolved(_) => Failure::unanswered(error),
-        _ => Failure::input(error),
+        Error::NoMass(name) => Failure::new(
+            ErrorCode::ModelUnsuited,
+            format!(
+                "'{name}' has no mass anywhere, so it has no frequencies. Add masses to the model file: {{ body = \"upper arm mass\", mass_kg = 270, centre_of_mass_mm = [0, 0, -625], inertia_kg_m2 = [[..], [..], [..]] }} behind a joint or link of a chain, or mass_kg, centre_of_mass_mm and inertia_kg_m2 of a moving body (platform)"
+            ),
+        ),
+        Error::NotSolved(_) => Failure::new(ErrorCode::NoAnswer, error),
+        _ => Failure::new(ErrorCode::ModelUnsuited, error),
     }
 }
 

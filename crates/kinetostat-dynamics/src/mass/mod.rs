@@ -7,7 +7,9 @@ pub(crate) mod segment;
 use nalgebra::{DMatrix, DVector};
 
 /// Kind of a part with mass.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, schemars::JsonSchema, serde::Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, schemars::JsonSchema, serde::Deserialize,
+)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum MassKind {

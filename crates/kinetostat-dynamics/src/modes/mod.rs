@@ -16,7 +16,17 @@ pub use mode::{Mode, ModeKind};
 pub use shares::EnergyShare;
 
 /// Numbers of directions of each kind.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, schemars::JsonSchema, serde::Deserialize)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    serde::Serialize,
+    schemars::JsonSchema,
+    serde::Deserialize,
+)]
 #[non_exhaustive]
 pub struct DirectionCounts {
     /// Modes that vibrate.

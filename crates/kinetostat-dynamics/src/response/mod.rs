@@ -12,7 +12,17 @@ use nalgebra::{Complex, Matrix6};
 pub type Receptance = Matrix6<Complex<f64>>;
 
 /// Motion that a response describes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, schemars::JsonSchema, serde::Deserialize)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    serde::Serialize,
+    schemars::JsonSchema,
+    serde::Deserialize,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
     /// Displacement: receptance, m/N.

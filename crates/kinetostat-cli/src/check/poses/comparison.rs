@@ -1,5 +1,6 @@
 //! The model compared with measured poses, stable names with units.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat::number::larger;
@@ -134,9 +135,9 @@ pub(crate) fn compare(
 
 fn findings(controller: &ControllerCoordinates<'_>, rows: &[PoseRow]) -> Answer<Vec<PoseFinding>> {
     let each = rows.iter().map(|row| {
-        let computed = controller
-            .pose(&row.measured.joints)
-            .map_err(|reason| Failure::input(format!("line {}: {reason}", row.line)))?;
+        let computed = controller.pose(&row.measured.joints).map_err(|reason| {
+            Failure::new(ErrorCode::FileForm, format!("line {}: {reason}", row.line))
+        })?;
         let off = difference(&row.measured, &computed);
         Ok(PoseFinding {
             name: row.name.clone(),

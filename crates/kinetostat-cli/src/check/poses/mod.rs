@@ -7,6 +7,7 @@ mod comparison;
 mod csv_file;
 mod pose_row;
 
+use kinetostat_diagnostic::ErrorCode;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -38,9 +39,12 @@ pub(crate) fn run(
     json: bool,
 ) -> Answer<()> {
     if !(tolerance_mm > 0.0 && tolerance_mm <= 1e4) {
-        return Err(Failure::input(format!(
-            "--pose-tolerance-mm is {tolerance_mm}; a length from above 0 to 10000 mm is needed"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Value,
+            format!(
+                "--pose-tolerance-mm is {tolerance_mm}; a length from above 0 to 10000 mm is needed"
+            ),
+        ));
     }
     let names = axes(model);
     let rows = read(&InputFiles::default(), file, &names)?;
@@ -56,8 +60,12 @@ pub(crate) fn run(
 pub(crate) fn read(files: &InputFiles, path: &Path, names: &[Named]) -> Answer<Vec<PoseRow>> {
     let bytes = files.bytes("file of poses", path)?;
     let name = path.display().to_string();
-    let text = String::from_utf8(bytes)
-        .map_err(|_| Failure::input(format!("{name}: not UTF-8 text; save it as UTF-8")))?;
+    let text = String::from_utf8(bytes).map_err(|_| {
+        Failure::new(
+            ErrorCode::FileNotRead,
+            format!("{name}: not UTF-8 text; save it as UTF-8"),
+        )
+    })?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
     let toml = path
         .extension()
@@ -67,15 +75,16 @@ pub(crate) fn read(files: &InputFiles, path: &Path, names: &[Named]) -> Answer<V
         false => from_csv(&with_decimal_points(text), names).map_err(|f| f.within(&name))?,
     };
     if rows.is_empty() {
-        return Err(Failure::input(format!(
-            "{name}: there is no pose in it; write one row for each"
-        )));
+        return Err(Failure::new(
+            ErrorCode::FileForm,
+            format!("{name}: there is no pose in it; write one row for each"),
+        ));
     }
     if rows.len() > MOST {
-        return Err(Failure::input(format!(
-            "{name}: {} poses, at most {MOST} are read",
-            rows.len()
-        )));
+        return Err(Failure::new(
+            ErrorCode::FileForm,
+            format!("{name}: {} poses, at most {MOST} are read", rows.len()),
+        ));
     }
     Ok(rows)
 }
@@ -224,10 +233,13 @@ fn from_toml(file: &str, text: &str, names: &[Named]) -> Answer<Vec<PoseRow>> {
         "write schema = 1 and, for each pose, [[pose]] with joints = { ... } and tool = { position_mm = [...], ... }",
     )?;
     if document.schema != 1 {
-        return Err(Failure::input(format!(
-            "{file}: this is version {} of the format; version 1 is read here",
-            document.schema
-        )));
+        return Err(Failure::new(
+            ErrorCode::FileForm,
+            format!(
+                "{file}: this is version {} of the format; version 1 is read here",
+                document.schema
+            ),
+        ));
     }
     let mut rows = Vec::new();
     for (number, entry) in document.pose.iter().enumerate() {

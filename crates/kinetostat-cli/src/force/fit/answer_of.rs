@@ -1,5 +1,6 @@
 //! Evaluation of the table of mean forces.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -40,10 +41,13 @@ pub(super) fn answer_of(
 ) -> Answer<FitAnswer> {
     let straight = straight(&tool.tool, &args.cut)?;
     if tool.tool.shape() != Shape::Flat {
-        return Err(Failure::input(format!(
-            "--fit: the closed form of the mean force is that of a flat cutter, and this is a {} one; measure with a flat cutter: the coefficients hold for the others too",
-            tool.tool.shape().word()
-        )));
+        return Err(Failure::new(
+            ErrorCode::Unused,
+            format!(
+                "--fit: the closed form of the mean force is that of a flat cutter, and this is a {} one; measure with a flat cutter: the coefficients hold for the others too",
+                tool.tool.shape().word()
+            ),
+        ));
     }
     let file = path.display().to_string();
     let acts_on = args.fit.acts_on.unwrap_or_default();

@@ -9,6 +9,7 @@ pub(crate) mod findings;
 mod material_file;
 mod text;
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat_report::{Plot, PlotLine, PlotMark};
@@ -38,10 +39,13 @@ pub(crate) fn run(files: &InputFiles, args: &ForceArgs, means: &Path) -> Answer<
     let mut answer = answer_of(args, &tool, (means, &with_decimal_points(&text)))?;
     if let Some(claim) = material {
         let toml = answer.material_toml.as_deref().ok_or_else(|| {
-            Failure::input(format!(
-                "--out-material: {}; leave the option out to see the whole fit",
-                answer.no_material.as_deref().unwrap_or("there is none")
-            ))
+            Failure::new(
+                ErrorCode::Unused,
+                format!(
+                    "--out-material: {}; leave the option out to see the whole fit",
+                    answer.no_material.as_deref().unwrap_or("there is none")
+                ),
+            )
         })?;
         claimed.fill(claim, toml.as_bytes())?;
     }

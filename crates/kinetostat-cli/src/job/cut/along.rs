@@ -1,6 +1,7 @@
 //! Forces of the cut along the program of a job.
 
 use kinetostat_cutting::{ForceLog, LoggedBy};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{
     CutFailure, CutFinding, CutFindingKind, ForceAlongPath, MeasuredForces, MeasuredReport,
     Placement, Warning, WarningCode, Watch,
@@ -16,7 +17,7 @@ use crate::job::cut::question::{CutSetup, MEASURED, not_typed_too};
 use crate::job::cut_tables::MeasuredTable;
 use crate::job::job_file::JobFile;
 use crate::job::setting::Setting;
-use crate::ui::failure::{Answer, Code, Failure};
+use crate::ui::failure::{Answer, Failure};
 
 /// The forces along a program, where the job asks for them.
 pub(crate) fn forces(
@@ -43,7 +44,7 @@ pub(crate) fn measured(
 ) -> Answer<ForceAlongPath> {
     let along = setup.forces.along(path, watch);
     along.map_err(|failure| match failure {
-        CutFailure::Log { .. } => Failure::input(failure).within(&setup.name),
+        CutFailure::Log { .. } => Failure::new(ErrorCode::FileForm, failure).within(&setup.name),
         _ => stopped_or_within(failure, setting),
     })
 }
@@ -51,8 +52,8 @@ pub(crate) fn measured(
 /// Converts a missing cutting force into a failure of the command.
 pub(crate) fn stopped_or_within(failure: CutFailure, setting: &Setting) -> Failure {
     match failure {
-        CutFailure::Cancelled => Failure::new(Code::Stopped, failure),
-        _ => setting.within(Failure::input(failure)),
+        CutFailure::Cancelled => Failure::new(ErrorCode::Stopped, failure),
+        _ => setting.within(Failure::new(ErrorCode::ProgramUnsuited, failure)),
     }
 }
 
@@ -81,7 +82,7 @@ pub(crate) fn refuse_what_breaks_the_tool(
         _ => "write a smaller feed or a higher speed, or correct the tool",
     };
     let what = format!("line {}: {}; {help}", found.line, text_of(found));
-    Err(setting.within(Failure::input(what)))
+    Err(setting.within(Failure::new(ErrorCode::ProgramUnsuited, what)))
 }
 
 /// Text of the worst line, with the number of lines.
@@ -206,7 +207,8 @@ pub(crate) fn measured_setup(
     )?;
     let mut read = FilesOfCut::default();
     let (text, name) = read.text(files, j, "log of forces", &t.file)?;
-    let log = ForceLog::read(&name, &with_decimal_points(&text)).map_err(Failure::input)?;
+    let log = ForceLog::read(&name, &with_decimal_points(&text))
+        .map_err(|error| Failure::new(ErrorCode::ProgramUnsuited, error))?;
     drop(text);
     let (smooth, air) = by_its_columns(j, t, log.by())?;
     let mut forces = MeasuredForces::new(log, t.acts_on);

@@ -1,5 +1,6 @@
 //! The cutters of a job: stated in it, or from tables of tools.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat_cutting::{LinuxCncTable, MachineUnit, Tool, ToolEntry, ToolTable, WrittenTool};
@@ -77,7 +78,7 @@ pub(crate) fn cutters(
         stands_out_of_its_length(j, number, cutter, entry.as_ref().ok())?;
         entry
             .map(|entry| Cutter::of_entry(number, &entry))
-            .map_err(Failure::input)
+            .map_err(|error| Failure::new(ErrorCode::FileForm, error))
     };
     let one = j.job.tool.cutter.iter().map(|cutter| read(None, cutter));
     let numbered = j.job.tools.iter().filter_map(|tool| {
@@ -167,7 +168,8 @@ pub(crate) fn called<'t>(
     program: &Path,
     table: &'t ToolTable,
 ) -> Answer<Vec<(u32, Option<&'t ToolEntry>)>> {
-    let program = Program::read(files.bytes("program", program)?).map_err(Failure::input)?;
+    let program = Program::read(files.bytes("program", program)?)
+        .map_err(|error| Failure::new(ErrorCode::FileForm, error))?;
     let numbers = program.tool_numbers().into_iter();
     Ok(numbers
         .map(|number| (number, table.tool(number).ok()))
@@ -183,13 +185,16 @@ fn table_of(
 ) -> Answer<ToolTable> {
     let (text, name) = files_read.text(files, j, "table of tools", &table.file)?;
     let Some(machine) = &table.tool_tbl else {
-        return ToolTable::read(&name, &text).map_err(Failure::input);
+        return ToolTable::read(&name, &text)
+            .map_err(|error| Failure::new(ErrorCode::FileForm, error));
     };
     let (bytes, of_machine) = files_read.bytes(files, j, "table of the machine", machine)?;
     let unit = match table.tool_tbl_unit {
         Some(UnitsWord::Inch) => MachineUnit::Inches,
         Some(UnitsWord::Mm) | None => MachineUnit::Millimetres,
     };
-    let machine = LinuxCncTable::read(&of_machine, &bytes, unit).map_err(Failure::input)?;
-    ToolTable::completing(&name, &text, machine).map_err(Failure::input)
+    let machine = LinuxCncTable::read(&of_machine, &bytes, unit)
+        .map_err(|error| Failure::new(ErrorCode::FileForm, error))?;
+    ToolTable::completing(&name, &text, machine)
+        .map_err(|error| Failure::new(ErrorCode::FileForm, error))
 }

@@ -1,5 +1,6 @@
 //! The material of a job.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::sync::Arc;
 
 use kinetostat_cutting::{Correction, CutError, Material, Materials};
@@ -88,7 +89,10 @@ pub(crate) fn material(
     let mut known = Materials::library();
     if let Some(file) = &table.file {
         let (text, name) = read.text(files, job, "file of materials", file)?;
-        known.with(Materials::read(&name, &text).map_err(Failure::input)?);
+        known.with(
+            Materials::read(&name, &text)
+                .map_err(|error| Failure::new(ErrorCode::FileForm, error))?,
+        );
     }
     let wrong = |error: CutError| refused(job, &table.name, &error);
     let found = known.find(table.name.get_ref()).map_err(wrong)?;

@@ -1,5 +1,6 @@
 //! Cutting data of a job as one question.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::ops::RangeInclusive;
 
 use kinetostat_cutting::{Engagement, Side, SpindleCurve, Tool};
@@ -360,10 +361,13 @@ pub(super) fn not_typed_too<T>(
         ));
     }
     if flags.force.is_some() || flags.moment.is_some() || flags.milling.is_some() {
-        return Err(Failure::input(format!(
-            "the load is given twice: on the command line, and by {} of the job file; keep one of them",
-            other.whose
-        )));
+        return Err(Failure::new(
+            ErrorCode::Conflict,
+            format!(
+                "the load is given twice: on the command line, and by {} of the job file; keep one of them",
+                other.whose
+            ),
+        ));
     }
     Ok(())
 }

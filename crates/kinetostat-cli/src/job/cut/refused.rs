@@ -1,6 +1,7 @@
 //! Errors of the library, reported at their place in the job.
 
 use kinetostat_cutting::CutError;
+use kinetostat_diagnostic::ErrorCode;
 use serde_spanned::Spanned;
 
 use crate::job::job_file::JobFile;
@@ -9,7 +10,7 @@ use crate::ui::failure::Failure;
 /// An error of the library where the job states what it is about; in a file of its own, it names that.
 pub(crate) fn refused<T>(job: &JobFile, at: &Spanned<T>, error: &CutError) -> Failure {
     if error.file.is_some() {
-        return Failure::input(error);
+        return Failure::new(ErrorCode::Value, error);
     }
     let help = match error.expected.starts_with("did you mean") {
         true => error.expected.clone(),

@@ -1,5 +1,6 @@
 //! The expansion itself: the flat program, the files that it was made of, and refusals that name file and line.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use kinetostat_machining::{FileRead, FlatProgram};
@@ -8,7 +9,7 @@ use kinetostat_program::{Expanded, ProgramError, expand_or_faults};
 use crate::job::expansion::folders::{Folders, SubprogramFile};
 use crate::job::expansion::settings::ExpandSettings;
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::fault_list::fault_list_text;
+use crate::ui::fault_list::failure_of;
 
 /// A program that was run once and written flat.
 pub(crate) struct Flattened {
@@ -32,12 +33,9 @@ pub(crate) fn flattened(
     let files = folders.into_read();
     let expanded = done.map_err(|all| {
         let failure = match all.as_slice() {
-            [] => Failure::input("the program is refused").within(name),
+            [] => Failure::new(ErrorCode::ProgramRefused, "the program is refused").within(name),
             [only] => refused(only, name, &files),
-            [first, ..] => {
-                let list = fault_list_text("lines", first, &all, |fault| fault.reason.as_str());
-                Failure::input(list).within(name)
-            }
+            [first, ..] => failure_of(ErrorCode::ProgramRefused, "lines", first, &all).within(name),
         };
         failure.of_program()
     })?;
@@ -74,10 +72,10 @@ fn refused(error: &ProgramError, program: &str, files: &[SubprogramFile]) -> Fai
             let file = file_name(name, program, files);
             let mut own = error.clone();
             reason.clone_into(&mut own.reason);
-            Failure::input(own)
+            Failure::new(ErrorCode::ProgramRefused, own)
                 .within(&file)
                 .within(&format!("{program}, in the subprogram"))
         }
-        None => Failure::input(error).within(program),
+        None => Failure::new(ErrorCode::ProgramRefused, error).within(program),
     }
 }

@@ -1,5 +1,6 @@
 //! Settings of an expansion, from options and the table `[expand]` of a job file; options have priority.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -36,9 +37,12 @@ pub(crate) fn wanted(
     let flat = flags.flat_program.is_some() && !is_converted;
     let flat = flat.then_some("--flat-program");
     if let Some(option) = flags.with.given().or(flat) {
-        return Err(Failure::input(format!(
-            "{option} says something about an expanded program, and this one is read as it stands; add --expand (in a job file: a table [expand]), or leave {option} out"
-        )));
+        return Err(Failure::new(
+            ErrorCode::Unused,
+            format!(
+                "{option} says something about an expanded program, and this one is read as it stands; add --expand (in a job file: a table [expand]), or leave {option} out"
+            ),
+        ));
     }
     let by_job = |j: &JobFile| match &j.job.robot {
         Some(table) => table.get_ref().to.is_some(),
@@ -111,10 +115,10 @@ pub(crate) fn settings(
 /// Folders of subprograms that options name.
 pub(crate) fn folders(args: &ExpansionArgs) -> Answer<Vec<PathBuf>> {
     match args.subprograms.iter().find(|folder| !folder.is_dir()) {
-        Some(folder) => Err(Failure::input(format!(
-            "--subprograms: {}",
-            no_folder(folder)
-        ))),
+        Some(folder) => Err(Failure::new(
+            ErrorCode::FileNotRead,
+            format!("--subprograms: {}", no_folder(folder)),
+        )),
         None => Ok(args.subprograms.clone()),
     }
 }
@@ -186,9 +190,10 @@ fn of_options(option: &str, words: &[String], allowed: Allowed) -> Answer<BTreeM
     let mut values = BTreeMap::new();
     for word in words {
         let refuse = |what: &str| {
-            Failure::input(format!(
-                "{option} '{word}': {what}; write a number and its value, as in 3=6.5"
-            ))
+            Failure::new(
+                ErrorCode::Value,
+                format!("{option} '{word}': {what}; write a number and its value, as in 3=6.5"),
+            )
         };
         let (number, value) = word
             .split_once('=')

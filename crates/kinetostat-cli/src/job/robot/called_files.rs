@@ -1,5 +1,6 @@
 //! Files of the programs that a program calls: in its own folder, and in folders of subprograms.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use kinetostat_formats::{SourceFile, called_files};
@@ -25,10 +26,13 @@ pub(crate) fn refuse_calls_beside(source: &RobotSource, program: &Path) -> Answe
     }
     let folder = Folder::of(&folder_of(program));
     match called.iter().find(|name| folder.file(name).is_some()) {
-        Some(name) => Err(Failure::input(format!(
-            "'{}' calls {name}, which lies in its folder and is not read with it: let both be run once and written flat (--expand, or a table [expand] in the job file)",
-            file.name()
-        ))),
+        Some(name) => Err(Failure::new(
+            ErrorCode::Missing,
+            format!(
+                "'{}' calls {name}, which lies in its folder and is not read with it: let both be run once and written flat (--expand, or a table [expand] in the job file)",
+                file.name()
+            ),
+        )),
         None => Ok(()),
     }
 }
@@ -66,11 +70,14 @@ pub(crate) fn with_called_files(
             let bytes = inputs.bytes("subprogram", &path)?;
             for other in found {
                 if inputs.bytes("subprogram", &other)? != bytes {
-                    return Err(Failure::input(format!(
-                        "two different subprograms have one name: '{}', line 1, and '{}', line 1; leave out the folder of one, or rename one",
-                        path.display(),
-                        other.display()
-                    )));
+                    return Err(Failure::new(
+                        ErrorCode::Conflict,
+                        format!(
+                            "two different subprograms have one name: '{}', line 1, and '{}', line 1; leave out the folder of one, or rename one",
+                            path.display(),
+                            other.display()
+                        ),
+                    ));
                 }
             }
             let name = path.file_name().unwrap_or_default().to_string_lossy();

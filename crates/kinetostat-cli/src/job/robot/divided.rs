@@ -3,6 +3,7 @@
 //! KRL and RAPID allow all routines in one file. The files are joined with a comment between them, so that the run goes along
 //! one program; at these comments the written program is divided again.
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{Language, SourceFile};
 use kinetostat_program::COMPENSATED_MARK;
 
@@ -65,10 +66,13 @@ impl Divided {
                 .windows(MARK.len())
                 .any(|part| part == MARK.as_bytes())
             {
-                return Err(Failure::input(format!(
-                    "{}: the words '{MARK}' stand in it: they are for divided programs while they are read as one; take them out",
-                    file.name()
-                )));
+                return Err(Failure::new(
+                    ErrorCode::ProgramRefused,
+                    format!(
+                        "{}: the words '{MARK}' stand in it: they are for divided programs while they are read as one; take them out",
+                        file.name()
+                    ),
+                ));
             }
             if index > 0 {
                 bytes.extend_from_slice(self.mark(index).as_bytes());
@@ -120,7 +124,8 @@ impl Divided {
             }
         }
         if files.len() != self.files.len() {
-            return Err(Failure::input(
+            return Err(Failure::new(
+                ErrorCode::Internal,
                 "the written program cannot be divided into its files again; nothing was written, please report this",
             ));
         }

@@ -1,5 +1,6 @@
 //! The arm of a table of joint values: the model says which poses they give.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::sync::Arc;
 
 use kinetostat::{Pose, PostureRequest};
@@ -112,9 +113,10 @@ pub(crate) fn give_arm(
     };
     let refuse = |reason: String| {
         let line = first.line;
-        Err(Failure::input(format!(
-            "line {line}: the table states joint values{reason}"
-        )))
+        Err(Failure::new(
+            ErrorCode::ProgramUnsuited,
+            format!("line {line}: the table states joint values{reason}"),
+        ))
     };
     let Some(between) = source.settings.joint_rows else {
         return refuse(", and how the controller moves from row to row is not stated: state it, joint_rows = \"joint\" (all joints in step) or \"linear\" (the tool on a straight line), under [robot] in the job file, or --joint-rows".to_owned());

@@ -50,7 +50,7 @@ pub(crate) fn join_parts(source: &mut RobotSource, program: &Path) -> Answer<Opt
     let all = match read(source.language, files, &source.settings.reading) {
         Ok(all) => all,
         Err(faults) if !found.is_empty() => {
-            return Err(refused(&faults, |fault| fault.reason.as_str()).of_program());
+            return Err(refused(&faults).of_program());
         }
         Err(_) => return Ok(None),
     };

@@ -1,5 +1,6 @@
 //! A robot's program read, with its path.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -18,7 +19,7 @@ use crate::job::robot::settings::RobotSettings;
 use crate::job::robot::source::RobotSource;
 use crate::job::robot::system_frames::taken;
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::fault_list::fault_list_text;
+use crate::ui::fault_list::{Fault, fault_list_text};
 use crate::ui::numbers::short;
 
 /// A robot's program with its path.
@@ -108,17 +109,20 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
                 fault.show_source(&before.origins, &before.files);
             }
         }
-        refused(&all, ProgramFault::reason)
+        refused(&all)
     })?;
     let joints = |motion: &&Motion| matches!(motion.target, Target::Joints { .. });
     if let (true, Some(motion)) = (
         source.language.is_list(),
         program.motions.iter().find(joints),
     ) {
-        return Err(Failure::input(format!(
-            "line {}: the table states joint values; which poses they give only a model says, and none is asked here: compensate with a model, or let the CAM system or the controller write poses (x_mm, y_mm, z_mm, qw, qx, qy, qz)",
-            motion.line
-        )));
+        return Err(Failure::new(
+            ErrorCode::ProgramUnsuited,
+            format!(
+                "line {}: the table states joint values; which poses they give only a model says, and none is asked here: compensate with a model, or let the CAM system or the controller write poses (x_mm, y_mm, z_mm, qw, qx, qy, qz)",
+                motion.line
+            ),
+        ));
     }
     let mut calls = program.findings.iter();
     let call = calls.find(|finding| {
@@ -127,18 +131,23 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
     });
     if let (true, Some(first)) = (program.motions.is_empty(), call) {
         let file = program.files.get(first.file).map_or("", |file| file.name());
-        return Err(Failure::input(format!(
-            "{file}, line {}: the program has no motion of its own, and {}; compensate the files with the motions one by one",
-            first.line, first.message
-        )));
+        return Err(Failure::new(
+            ErrorCode::ProgramUnsuited,
+            format!(
+                "{file}, line {}: the program has no motion of its own, and {}; compensate the files with the motions one by one",
+                first.line, first.message
+            ),
+        ));
     }
-    let mut path = path_of(&program, &settings.making)
-        .map_err(|all| refused(&all, |fault| fault.reason.as_str()))?;
+    let mut path = path_of(&program, &settings.making).map_err(|all| refused(&all))?;
     if path.file != 0 {
         let name = program.files[path.file].name();
-        return Err(Failure::input(format!(
-            "the motions stand in '{name}': give that file as the program, and this one among files under [robot]"
-        )));
+        return Err(Failure::new(
+            ErrorCode::ProgramUnsuited,
+            format!(
+                "the motions stand in '{name}': give that file as the program, and this one among files under [robot]"
+            ),
+        ));
     }
     path.path
         .spindle_changes
@@ -154,7 +163,8 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
     path.path.warnings.extend(settings.beyond_limits.clone());
     let mut moves = path.path.moves.iter();
     if settings.corrected == Directions::ALL && moves.all(|motion| motion.tool_turn.is_none()) {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::ProgramUnsuited,
             "the program does not state how its tool stands, so that its orientation cannot be corrected: leave out --correct pose (correct = \"pose\" under [robot])",
         ));
     }
@@ -164,7 +174,8 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
         rotary.is_some_and(|rotary| rotary.stated == StatedBy::Direction)
     };
     if settings.corrected == Directions::ALL && path.path.moves.iter().any(by_direction) {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::ProgramUnsuited,
             "the program states directions of the tool, and rotary axes that follow them are not corrected: leave out --correct pose (correct = \"pose\" under [robot]), or let the CAM system write their angles",
         ));
     }
@@ -202,14 +213,11 @@ const KEYS: [(&str, &str); 9] = [
     ("give the .dat file", "files = [\"other.dat\"]"),
 ];
 
-pub(crate) fn refused<'f, F: std::fmt::Display>(
-    all: &'f [F],
-    reason: impl Fn(&'f F) -> &'f str,
-) -> Failure {
+pub(crate) fn refused<F: Fault>(all: &[F]) -> Failure {
     let Some(first) = all.first() else {
-        return Failure::input("the program is refused");
+        return Failure::new(ErrorCode::ProgramRefused, "the program is refused");
     };
-    let mut text = fault_list_text("lines", first, all, reason);
+    let mut text = fault_list_text("lines", first, all);
     let named = |(words, _): &&(&str, &str)| text.contains(words);
     let mut keys: Vec<&str> = KEYS.iter().filter(named).map(|(_, key)| *key).collect();
     keys.dedup();
@@ -219,7 +227,7 @@ pub(crate) fn refused<'f, F: std::fmt::Display>(
             keys.join("  or  ")
         ));
     }
-    Failure::input(text)
+    Failure::new(ErrorCode::ProgramRefused, text).with_faults(all.iter().map(Fault::diagnostic))
 }
 
 /// Differences below this are those of digits, mm and rad.
@@ -341,9 +349,10 @@ pub(crate) fn flat_text(source: &RobotSource, comments: bool) -> Answer<(FlatTex
     let files = source.files.clone();
     let names: Vec<String> = files.iter().map(|file| file.name().to_owned()).collect();
     let done = expand(source.language, files, &source.settings.reading)
-        .map_err(|all| refused(&all, |fault| fault.reason.as_str()).of_program())?;
+        .map_err(|all| refused(&all).of_program())?;
     let Some(text) = done else {
-        return Err(Failure::input(
+        return Err(Failure::new(
+            ErrorCode::Unused,
             "--expand and [expand] are for programs, and a list of poses is read as it stands: leave them out",
         ));
     };

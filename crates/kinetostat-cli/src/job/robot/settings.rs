@@ -1,5 +1,6 @@
 //! Settings for reading and writing a robot's program, from options and the table `[robot]` of a job file.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::collections::{BTreeMap, BTreeSet};
 
 use kinetostat::Directions;
@@ -162,9 +163,12 @@ fn moving_calls(
 ) -> Answer<BTreeSet<String>> {
     let found = stated_to_move(job, &flags.stated);
     match found.first() {
-        Some(name) if !language.takes_values() => Err(Failure::input(format!(
-            "'{name}' is stated to move the tool ([calls] in the job, --call), which is for programs that call others: leave it out"
-        ))),
+        Some(name) if !language.takes_values() => Err(Failure::new(
+            ErrorCode::Unused,
+            format!(
+                "'{name}' is stated to move the tool ([calls] in the job, --call), which is for programs that call others: leave it out"
+            ),
+        )),
         _ => Ok(found),
     }
 }
@@ -177,7 +181,7 @@ pub(crate) fn moving_subprograms(
     let number = |name: &String| {
         let digits = name.trim_start_matches(['O', 'o']);
         digits.parse::<u32>().map_err(|_| {
-            Failure::input(format!(
+            Failure::new(ErrorCode::Value, format!(
                 "'{name}' is stated to move the tool ([calls] in the job, --call), and a subprogram of G-code has a number: write it as O9810"
             ))
         })
@@ -199,9 +203,12 @@ fn stated_values(
         found.insert(name.clone(), value.clone());
     }
     match found.keys().next() {
-        Some(name) if !language.takes_values() => Err(Failure::input(format!(
-            "a value of '{name}' is stated ([values] in the job, --set), which is for programs that are run with values (of robots, Heidenhain, SINUMERIK): leave it out"
-        ))),
+        Some(name) if !language.takes_values() => Err(Failure::new(
+            ErrorCode::Unused,
+            format!(
+                "a value of '{name}' is stated ([values] in the job, --set), which is for programs that are run with values (of robots, Heidenhain, SINUMERIK): leave it out"
+            ),
+        )),
         _ => Ok(found),
     }
 }

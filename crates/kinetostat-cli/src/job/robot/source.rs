@@ -1,5 +1,6 @@
 //! The files of a robot's program.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::borrow::Cow;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -75,13 +76,19 @@ pub(crate) fn robot_source(
     let table = job.and_then(|j| Some((j, j.job.robot.as_ref()?)));
     let Some(language) = language_of(name, bytes) else {
         if let Some(odd) = odd_program(name, bytes) {
-            return Err(Failure::input(format!("'{name}': {odd}")));
+            return Err(Failure::new(
+                ErrorCode::FileForm,
+                format!("'{name}': {odd}"),
+            ));
         }
         return match (flags.of_robots_alone(), table) {
-            (Some(option), _) if !flags.converted => Err(Failure::input(format!(
-                "{option} is for programs of robots, and '{name}' is none that is known ({}): it is read as G-code; leave {option} out",
-                known_endings()
-            ))),
+            (Some(option), _) if !flags.converted => Err(Failure::new(
+                ErrorCode::Unused,
+                format!(
+                    "{option} is for programs of robots, and '{name}' is none that is known ({}): it is read as G-code; leave {option} out",
+                    known_endings()
+                ),
+            )),
             (_, Some((j, table))) if !table.get_ref().is_of_any_program() => Err(j.error(
                 table,
                 &format!("this table is for programs of robots, and '{name}' is read as G-code"),
@@ -102,10 +109,13 @@ pub(crate) fn robot_source(
     };
     refuse_unfit(job, program, language)?;
     if let Some(data) = language.data_ending().filter(|data| has_ending(path, data)) {
-        return Err(Failure::input(format!(
-            "'{name}' holds data of a program: give its .{} as the program; the .{data} of the same name is read with it",
-            FileForm::Program(language).ending()
-        )));
+        return Err(Failure::new(
+            ErrorCode::FileForm,
+            format!(
+                "'{name}' holds data of a program: give its .{} as the program; the .{data} of the same name is read with it",
+                FileForm::Program(language).ending()
+            ),
+        ));
     }
     let mut settings = settings(
         job,
@@ -225,8 +235,12 @@ pub(crate) struct Written {
 /// The text of a program in Parquet; none of any other.
 fn as_text(name: &str, bytes: &[u8]) -> Answer<Option<Vec<u8>>> {
     match bytes.starts_with(b"PAR1") {
-        true => text_of(bytes)
-            .map_err(|what| Failure::input(format!("the table in Parquet '{name}': {what}"))),
+        true => text_of(bytes).map_err(|what| {
+            Failure::new(
+                ErrorCode::FileForm,
+                format!("the table in Parquet '{name}': {what}"),
+            )
+        }),
         false => Ok(None),
     }
 }
@@ -234,9 +248,10 @@ fn as_text(name: &str, bytes: &[u8]) -> Answer<Option<Vec<u8>>> {
 /// A program in Parquet with the numbers of a text.
 fn of_text(name: &str, original: &[u8], text: &[u8]) -> Answer<Written> {
     file_of(original, text).map_err(|what| {
-        Failure::input(format!(
-            "the table in Parquet '{name}' cannot be written corrected: {what}"
-        ))
+        Failure::new(
+            ErrorCode::Output,
+            format!("the table in Parquet '{name}' cannot be written corrected: {what}"),
+        )
     })
 }
 
@@ -269,9 +284,10 @@ fn refuse_unfit(job: Option<&JobFile>, flags: &ProgramArgs, language: Language) 
     // A control has the switch for blocks behind a slash, as G-code has.
     let has_switch = language.has_slash_switch();
     let refuse = |what: &str, why: &str| {
-        Err(Failure::input(format!(
-            "{what} is for G-code; {why}: leave it out"
-        )))
+        Err(Failure::new(
+            ErrorCode::Unused,
+            format!("{what} is for G-code; {why}: leave it out"),
+        ))
     };
     let reading = &flags.reading;
     let words = "a program of a robot says it by its own statements";

@@ -1,5 +1,6 @@
 //! The file itself, group by group of rows.
 
+use kinetostat_diagnostic::ErrorCode;
 use std::io::{Read, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -33,7 +34,8 @@ impl<P: FnMut(&[u8]) -> Answer<()>> PointsFile<P> {
         let facts = facts.map(|(name, text)| (name.to_owned(), text));
         let columns: Vec<RowColumn> = names.into_iter().map(column).collect();
         let sink = Shared::default();
-        let writer = RowsWriter::new(sink.clone(), &columns, &facts).map_err(Failure::input)?;
+        let writer = RowsWriter::new(sink.clone(), &columns, &facts)
+            .map_err(|error| Failure::new(ErrorCode::Output, error))?;
         Ok(Self {
             columns,
             writer,
@@ -50,7 +52,9 @@ impl<P: FnMut(&[u8]) -> Answer<()>> PointsFile<P> {
             // An empty cell is a number that does not exist.
             false => Cell::Number(cell.parse().unwrap_or(f64::NAN)),
         });
-        self.writer.push(cells).map_err(Failure::input)?;
+        self.writer
+            .push(cells)
+            .map_err(|error| Failure::new(ErrorCode::Output, error))?;
         let bytes = self.sink.take();
         match bytes.is_empty() {
             true => Ok(()),
@@ -59,7 +63,9 @@ impl<P: FnMut(&[u8]) -> Answer<()>> PointsFile<P> {
     }
 
     fn finish(mut self) -> Answer<()> {
-        self.writer.finish().map_err(Failure::input)?;
+        self.writer
+            .finish()
+            .map_err(|error| Failure::new(ErrorCode::Output, error))?;
         (self.put)(&self.sink.take())
     }
 }
@@ -96,9 +102,12 @@ pub(crate) fn from_csv(
 }
 
 fn unread(error: csv::Error) -> Failure {
-    Failure::input(format!(
-        "the rows of points that were kept cannot be read ({error}): give --restart to begin anew"
-    ))
+    Failure::new(
+        ErrorCode::Checkpoint,
+        format!(
+            "the rows of points that were kept cannot be read ({error}): give --restart to begin anew"
+        ),
+    )
 }
 
 /// Bytes that were written since they were taken last.

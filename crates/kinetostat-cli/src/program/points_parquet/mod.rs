@@ -6,6 +6,7 @@
 #[cfg(feature = "parquet")]
 mod file;
 
+use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use crate::ui::failure::{Answer, Failure};
@@ -34,7 +35,8 @@ pub(crate) fn refuse_without_parquet(path: Option<&Path>) -> Answer<()> {
 }
 
 fn none() -> Failure {
-    Failure::input(
+    Failure::new(
+        ErrorCode::NotBuiltIn,
         "this program was built without Parquet: name a table of points that ends in .csv",
     )
 }
