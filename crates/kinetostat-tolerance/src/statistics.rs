@@ -16,8 +16,10 @@ pub const SHARES: [f64; 5] = [0.025, 0.05, 0.5, 0.95, 0.975];
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Estimate {
     /// The estimate.
+    #[schemars(with = "Option<f64>")]
     pub value: f64,
     /// Half width of its interval of confidence; NaN (null in JSON) where too few draws have an answer.
+    #[schemars(with = "Option<f64>")]
     pub plus_minus: f64,
 }
 

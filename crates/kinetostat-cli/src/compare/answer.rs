@@ -27,6 +27,7 @@ pub(crate) struct AtPlace {
 #[derive(Serialize, JsonSchema)]
 pub(crate) struct Figures {
     pub(crate) position_mm: [f64; 3],
+    #[schemars(with = "Option<f64>")]
     pub(crate) smallest_stiffness_n_per_mm: f64,
     /// Stiffness against a force along x, y, z, by the motion along it; null if nothing holds or yields.
     pub(crate) stiffness_n_per_mm: [Option<f64>; 3],

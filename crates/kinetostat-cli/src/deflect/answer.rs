@@ -38,6 +38,7 @@ pub(crate) struct Deflection {
     pub(crate) on_controller: Vec<JointValue>,
     pub(crate) limbs: Vec<LimbAnswer>,
     /// Stiffness in the softest direction, the tool free to turn; none if no force moves it.
+    #[schemars(with = "Option<f64>")]
     pub(crate) smallest_stiffness_n_per_mm: f64,
     pub(crate) free_directions: usize,
     /// Motions by which the tool runs away by itself: `turns about z by arm: q`.

@@ -57,8 +57,10 @@ pub(crate) struct ShapeAnswer {
     pub(crate) found_by_spread_starts: usize,
     /// Along the requested direction; without one the smallest principal stiffness, rotations at the
     /// natural length. Null if infinite.
+    #[schemars(with = "Option<f64>")]
     pub(crate) stiffness_n_per_mm: f64,
     /// Rows: force (N), moment (N m); columns: displacement (m), rotation (rad); at the tool's tip.
+    #[schemars(with = "[[Option<f64>; 6]; 6]")]
     pub(crate) stiffness_n_m_rad: [[f64; 6]; 6], // NaN (null) where it is infinite
     pub(crate) force_n: [f64; 3],
     pub(crate) moment_n_m: [f64; 3],

@@ -28,8 +28,10 @@ pub(crate) struct Stiffness {
     pub(crate) moment_n_m: [f64; 3],
     /// Rows: force (N), moment (N m); columns: displacement (m), rotation (rad); null along axes that a rigid
     /// direction has a part in.
+    #[schemars(with = "[[Option<f64>; 6]; 6]")]
     pub(crate) stiffness_n_m_rad: [[f64; 6]; 6],
     /// Stiffness as the terminal shows it: rows N and N m, columns per mm and per rad.
+    #[schemars(with = "[[Option<f64>; 6]; 6]")]
     pub(crate) stiffness_n_n_m_per_mm_rad: [[f64; 6]; 6],
     /// Inverse, m and rad per N and N m, zero along rigid directions; none where a direction is free.
     pub(crate) compliance_m_rad_per_n: Option<[[f64; 6]; 6]>,
@@ -39,6 +41,7 @@ pub(crate) struct Stiffness {
     pub(crate) compliance_besides_free_motions_m_rad_per_n: Option<[[f64; 6]; 6]>,
     /// Smallest stiffness against a force: in its softest direction, the tool free to turn; null if no
     /// force moves the tool. As in `map`, `deflect` and along programs.
+    #[schemars(with = "Option<f64>")]
     pub(crate) smallest_stiffness_n_per_mm: f64,
     /// Loads of the model that are not in the unloaded stiffness: springs and other loads between
     /// nodes and platforms, and weight.
@@ -63,7 +66,9 @@ pub(crate) struct Stiffness {
 /// Stiffness of the machine as it stands, without a load on the tool.
 #[derive(Serialize, JsonSchema)]
 pub(crate) struct AtRest {
+    #[schemars(with = "[[Option<f64>; 6]; 6]")]
     pub(crate) stiffness_n_m_rad: [[f64; 6]; 6],
+    #[schemars(with = "Option<f64>")]
     pub(crate) smallest_stiffness_n_per_mm: f64,
     pub(crate) stable: bool,
 }

@@ -50,7 +50,7 @@ const LINES: [&str; 38] = [
 ];
 
 /// Commands without a line: what they print is no answer to a question.
-const WITHOUT_A_LINE: [&str; 3] = ["completions", "man", "help"];
+const WITHOUT_A_LINE: [&str; 5] = ["completions", "explain", "help", "man", "schema"];
 
 /// Options that may change nothing, of one command or of all: leave to overwrite and to begin anew, speed, bounds that are kept
 /// here, and facts of machine and program that this program does not need.

@@ -34,6 +34,7 @@ mod draw;
 mod endings;
 mod engagement;
 mod engagement_of_program;
+mod error_codes;
 mod every_option;
 mod expand;
 mod expanded;

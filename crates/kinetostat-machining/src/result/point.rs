@@ -115,6 +115,7 @@ pub struct PointResult {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub configuration: Option<ArmConfiguration>,
     /// Stiffness of the tool's tip against a force in its softest direction, N/mm.
+    #[schemars(with = "Option<f64>")]
     pub smallest_stiffness_n_per_mm: f64,
     /// Largest share of the way to buckling of any limb, mu; 1 is buckling.
     pub share_to_buckling: Option<f64>,

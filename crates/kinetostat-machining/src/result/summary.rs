@@ -150,6 +150,7 @@ pub struct Summary {
     /// Smallest stiffness of the tool's tip against a force along the path (softest direction, the
     /// tool free to turn), N/mm; infinite where nothing was solved, which JSON has as null.
     #[serde(deserialize_with = "infinite_where_null")]
+    #[schemars(with = "Option<f64>")]
     pub smallest_stiffness_n_per_mm: f64,
     /// Largest share of the way to buckling of any limb, mu (1 is buckling, below zero a load that
     /// stretches it); `None` for limbs without inner freedom.

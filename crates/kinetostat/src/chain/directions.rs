@@ -54,6 +54,7 @@ pub struct Direction {
     /// Free, finite, negative or rigid.
     pub kind: DirectionKind,
     /// Stiffness along it, N/m (rotations referred to the natural length); infinite if rigid.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub stiffness_n_per_m: f64,
     /// The motion, scaled so that its longest part (m, or rad times the natural length) is 1 m.
     pub twist: Twist,

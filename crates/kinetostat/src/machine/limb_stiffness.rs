@@ -40,6 +40,7 @@ pub struct LimbStiffness {
     /// Arm from the platform's reference point to the limb's end, m: the `s_i` of `T_i`.
     pub arm_m: [f64; 3],
     /// `K_C`, NaN along axes that the limb cannot move along.
+    #[cfg_attr(feature = "schema", schemars(with = "[[Option<f64>; 6]; 6]"))]
     pub stiffness_n_m_rad: [[f64; 6]; 6],
     /// `K_Cq` of the passive joints.
     pub passive_joints: Vec<JointSensitivity>,

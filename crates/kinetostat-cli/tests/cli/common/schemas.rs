@@ -36,6 +36,8 @@ fn check(command: &str, bytes: &[u8]) {
     if value.get("kinetostat_version").is_none() && command != "reproduce" {
         return;
     }
+    let is_error = value.get("errors").is_some() && value.get("exit_code").is_some();
+    let command = if is_error { "error" } else { command };
     let validator = validator(command).unwrap_or_else(|| panic!("`{command}` has no schema"));
     let faults: Vec<String> = validator
         .iter_errors(&value)
