@@ -5,6 +5,9 @@ use std::fmt::Write as _;
 use crate::literal::without_variables;
 use crate::text::escape;
 
+/// A point of a drawing, in pixels.
+pub(crate) type Pixel = [f64; 2];
+
 /// Anchor of a text.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Anchor {
@@ -20,14 +23,14 @@ pub(crate) struct Svg {
 }
 
 impl Svg {
-    pub(crate) fn line(&mut self, class: &str, from: (f64, f64), to: (f64, f64)) {
+    pub(crate) fn line(&mut self, class: &str, from: Pixel, to: Pixel) {
         let _ = write!(
             self.body,
             "<path class=\"{class}\" d=\"M{} {}L{} {}\"/>",
-            pixel(from.0),
-            pixel(from.1),
-            pixel(to.0),
-            pixel(to.1)
+            pixel(from[0]),
+            pixel(from[1]),
+            pixel(to[0]),
+            pixel(to[1])
         );
     }
 
@@ -38,20 +41,14 @@ impl Svg {
         }
     }
 
-    pub(crate) fn rectangle(
-        &mut self,
-        class: &str,
-        corner: (f64, f64),
-        size: (f64, f64),
-        radius: f64,
-    ) {
+    pub(crate) fn rectangle(&mut self, class: &str, corner: Pixel, size: [f64; 2], radius: f64) {
         let _ = write!(
             self.body,
             "<rect class=\"{class}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"",
-            pixel(corner.0),
-            pixel(corner.1),
-            pixel(size.0.max(0.0)),
-            pixel(size.1.max(0.0))
+            pixel(corner[0]),
+            pixel(corner[1]),
+            pixel(size[0].max(0.0)),
+            pixel(size[1].max(0.0))
         );
         if radius > 0.0 {
             let _ = write!(self.body, " rx=\"{}\"", pixel(radius));
@@ -60,45 +57,45 @@ impl Svg {
     }
 
     /// A ring with a text that appears when the pointer rests on it.
-    pub(crate) fn marker(&mut self, class: &str, at: (f64, f64), tooltip: &str) {
+    pub(crate) fn marker(&mut self, class: &str, at: Pixel, tooltip: &str) {
         let _ = write!(
             self.body,
             "<circle class=\"{class}\" cx=\"{}\" cy=\"{}\" r=\"4.5\"><title>{}</title></circle>",
-            pixel(at.0),
-            pixel(at.1),
+            pixel(at[0]),
+            pixel(at[1]),
             escape(tooltip)
         );
     }
 
-    pub(crate) fn text(&mut self, class: &str, at: (f64, f64), anchor: Anchor, text: &str) {
+    pub(crate) fn text(&mut self, class: &str, at: Pixel, anchor: Anchor, text: &str) {
         let _ = write!(
             self.body,
             "<text class=\"{class}\" x=\"{}\" y=\"{}\"{}>{}</text>",
-            pixel(at.0),
-            pixel(at.1),
+            pixel(at[0]),
+            pixel(at[1]),
             anchor_attribute(anchor),
             escape(text)
         );
     }
 
     /// Text that reads upwards, centred at a point.
-    pub(crate) fn text_upwards(&mut self, class: &str, at: (f64, f64), text: &str) {
+    pub(crate) fn text_upwards(&mut self, class: &str, at: Pixel, text: &str) {
         let _ = write!(
             self.body,
             "<text class=\"{class}\" transform=\"translate({} {}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-            pixel(at.0),
-            pixel(at.1),
+            pixel(at[0]),
+            pixel(at[1]),
             escape(text)
         );
     }
 
     /// Draws another drawing, so many pixels below the top of this one.
     pub(crate) fn below(&mut self, down: f64, other: &Self) {
-        self.at((0.0, down), other);
+        self.at([0.0, down], other);
     }
 
     /// Draws another drawing with its corner at a place of this one.
-    pub(crate) fn at(&mut self, (right, down): (f64, f64), other: &Self) {
+    pub(crate) fn at(&mut self, [right, down]: Pixel, other: &Self) {
         let _ = write!(
             self.body,
             "<g transform=\"translate({} {})\">{}</g>",
@@ -109,8 +106,8 @@ impl Svg {
     }
 
     /// Shows the part of another drawing in a rectangle of this one.
-    pub(crate) fn window(&mut self, corner: (f64, f64), size: (f64, f64), other: &Self) {
-        let [x, y, width, height] = [corner.0, corner.1, size.0, size.1].map(pixel);
+    pub(crate) fn window(&mut self, corner: Pixel, size: [f64; 2], other: &Self) {
+        let [x, y, width, height] = [corner[0], corner[1], size[0], size[1]].map(pixel);
         let _ = write!(
             self.body,
             "<svg x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" viewBox=\"{x} {y} {width} {height}\">{}</svg>",
@@ -119,19 +116,19 @@ impl Svg {
     }
 
     /// The drawing as an element for a page.
-    pub(crate) fn inline(&self, class: &str, size: (f64, f64), description: &str) -> String {
+    pub(crate) fn inline(&self, class: &str, size: [f64; 2], description: &str) -> String {
         format!(
             "<svg class=\"{class}\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">{}</svg>",
-            pixel(size.0),
-            pixel(size.1),
+            pixel(size[0]),
+            pixel(size[1]),
             escape(description),
             self.body
         )
     }
 
     /// The drawing as a document with its own style, whose colours programs without variables of style sheets know, too.
-    pub(crate) fn document(&self, size: (f64, f64), description: &str, style: &str) -> String {
-        let (width, height) = (pixel(size.0), pixel(size.1));
+    pub(crate) fn document(&self, size: [f64; 2], description: &str, style: &str) -> String {
+        let [width, height] = size.map(pixel);
         let style = without_variables(style);
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
@@ -189,7 +186,7 @@ mod tests {
     #[test]
     fn text_is_escaped() {
         let mut svg = Svg::default();
-        svg.text("a", (0.0, 0.0), Anchor::Start, "<script>");
-        assert!(!svg.inline("x", (1.0, 1.0), "\"<b>").contains("<script"));
+        svg.text("a", [0.0, 0.0], Anchor::Start, "<script>");
+        assert!(!svg.inline("x", [1.0, 1.0], "\"<b>").contains("<script"));
     }
 }

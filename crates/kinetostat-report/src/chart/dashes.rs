@@ -1,7 +1,8 @@
 //! Dashed lines that lie on each other: mirrored shapes have the same curve, and two rows of dashes
 //! out of step look like a solid line.
 
-use crate::chart::outline::Pixel;
+use crate::chart::outline::distance;
+use crate::svg::Pixel;
 
 /// Nearer than this two lines are drawn as one, pixels.
 const NEAR: f64 = 0.6;
@@ -25,7 +26,7 @@ impl Drawn {
             if a == b {
                 continue;
             }
-            let middle = (0.5 * (a.0 + b.0), 0.5 * (a.1 + b.1));
+            let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
             // The piece before ends where this one begins and hides none of it.
             let known = &self.pieces[..self.pieces.len().saturating_sub(usize::from(!lifted))];
             let hidden = [a, middle, b]
@@ -49,12 +50,6 @@ impl Drawn {
     }
 }
 
-fn distance(p: Pixel, a: Pixel, b: Pixel) -> f64 {
-    let (dx, dy) = (b.0 - a.0, b.1 - a.1);
-    let share = (((p.0 - a.0) * dx + (p.1 - a.1) * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
-    (p.0 - a.0 - share * dx).hypot(p.1 - a.1 - share * dy)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -62,7 +57,7 @@ mod tests {
     #[test]
     fn a_line_that_comes_back_is_drawn_once() {
         let there: Vec<_> = (0..=100)
-            .map(|i| Some((f64::from(i), 0.5 * f64::from(i))))
+            .map(|i| Some([f64::from(i), 0.5 * f64::from(i)]))
             .collect();
         let mut both = there.clone();
         both.extend(there.iter().rev());
@@ -72,7 +67,7 @@ mod tests {
         assert!((100..=104).contains(&count), "{count}");
         assert!(drawn.fresh(&there).iter().flatten().next().is_none());
         // Another line stays whole.
-        let other: Vec<_> = (0..=10).map(|i| Some((f64::from(i), 30.0))).collect();
+        let other: Vec<_> = (0..=10).map(|i| Some([f64::from(i), 30.0])).collect();
         assert_eq!(drawn.fresh(&other).iter().flatten().count(), 11);
     }
 }

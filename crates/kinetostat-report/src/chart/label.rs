@@ -1,6 +1,6 @@
 //! Labels beside points that do not cover each other.
 
-use crate::svg::{Anchor, Svg};
+use crate::svg::{Anchor, Pixel, Svg};
 use crate::text;
 
 /// Size of text in drawings, in pixels; the style sheet says the same.
@@ -31,8 +31,8 @@ impl Frame {
             && other.y < self.bottom()
     }
 
-    pub(crate) fn holds(&self, at: (f64, f64)) -> bool {
-        self.x < at.0 && at.0 < self.right() && self.y < at.1 && at.1 < self.bottom()
+    pub(crate) fn holds(&self, at: Pixel) -> bool {
+        self.x < at[0] && at[0] < self.right() && self.y < at[1] && at[1] < self.bottom()
     }
 
     pub(crate) fn contains(&self, other: &Self) -> bool {
@@ -62,8 +62,8 @@ impl Labels {
         svg: &mut Svg,
         class: &str,
         frame: &Frame,
-        at: (f64, f64),
-        wanted: (f64, f64),
+        at: Pixel,
+        wanted: Pixel,
         label: &str,
     ) -> bool {
         let width = 1.1 * text::width(label, TEXT_SIZE) + 8.0;
@@ -79,11 +79,11 @@ impl Labels {
         let along = |choice: &(f64, f64, Anchor)| {
             // Text stands on its base line: its middle is a little higher.
             let (x, y) = (choice.0, choice.1 - 4.0);
-            (x * wanted.0 + y * wanted.1) / x.hypot(y)
+            (x * wanted[0] + y * wanted[1]) / x.hypot(y)
         };
         choices.sort_by(|a, b| along(b).total_cmp(&along(a)));
         for (dx, dy, anchor) in choices {
-            let (x, y) = (at.0 + dx, at.1 + dy);
+            let (x, y) = (at[0] + dx, at[1] + dy);
             let left = match anchor {
                 Anchor::Start => x,
                 Anchor::Middle => x - 0.5 * width,
@@ -97,7 +97,7 @@ impl Labels {
             };
             if frame.contains(&area) && !self.taken.iter().any(|other| other.covers(&area)) {
                 self.taken.push(area);
-                svg.text(class, (x, y), anchor, label);
+                svg.text(class, [x, y], anchor, label);
                 return true;
             }
         }

@@ -5,8 +5,7 @@
 //! thin line to the point.
 
 use crate::chart::label::{Frame, TEXT_SIZE};
-use crate::chart::outline::Pixel;
-use crate::svg::{Anchor, Svg};
+use crate::svg::{Anchor, Pixel, Svg};
 use crate::text;
 
 /// Distance of the points by which lines are felt, pixels.
@@ -46,7 +45,7 @@ impl Beside {
         Self {
             at,
             radius,
-            toward: (0.77, -0.64),
+            toward: [0.77, -0.64],
         }
     }
 }
@@ -70,8 +69,8 @@ impl Names {
     /// Something round that is never covered.
     pub(crate) fn mark(&mut self, at: Pixel, radius: f64) {
         self.taken.push(Frame {
-            x: at.0 - radius,
-            y: at.1 - radius,
+            x: at[0] - radius,
+            y: at[1] - radius,
             width: 2.0 * radius,
             height: 2.0 * radius,
         });
@@ -92,15 +91,16 @@ impl Names {
 
     /// True if a circle lies within the frame.
     pub(crate) fn room_for(&self, at: Pixel, radius: f64) -> bool {
-        let corner = (at.0 - radius, at.1 - radius);
-        self.frame.holds(corner) && self.frame.holds((at.0 + radius, at.1 + radius))
+        let corner = [at[0] - radius, at[1] - radius];
+        self.frame.holds(corner) && self.frame.holds([at[0] + radius, at[1] + radius])
     }
 
     /// Cost of obstacles in the way of a line: marks count more than lines.
     pub(crate) fn in_the_way(&self, from: Pixel, to: Pixel, half: f64) -> f64 {
         let mut cost = 0.0;
         along(from, to, STEP, |at| {
-            let near = |(p, own): &&(Pixel, f64)| (p.0 - at.0).hypot(p.1 - at.1) < own + half + 1.0;
+            let near =
+                |(p, own): &&(Pixel, f64)| (p[0] - at[0]).hypot(p[1] - at[1]) < own + half + 1.0;
             cost += self.lines.iter().filter(near).count().min(2) as f64;
             cost += 2.0 * self.taken.iter().filter(|t| t.holds(at)).count().min(2) as f64;
         });
@@ -121,15 +121,18 @@ impl Names {
         };
         let area = place.area;
         if place.gap > FAR {
-            let end = (
-                beside.at.0.clamp(area.x + 2.0, area.right() - 2.0),
-                beside.at.1.clamp(area.y + 2.0, area.bottom() - 2.0),
-            );
-            let share = beside.radius / (end.0 - beside.at.0).hypot(end.1 - beside.at.1).max(1e-9);
-            let start = (
-                beside.at.0 + share * (end.0 - beside.at.0),
-                beside.at.1 + share * (end.1 - beside.at.1),
-            );
+            let end = [
+                beside.at[0].clamp(area.x + 2.0, area.right() - 2.0),
+                beside.at[1].clamp(area.y + 2.0, area.bottom() - 2.0),
+            ];
+            let share = beside.radius
+                / (end[0] - beside.at[0])
+                    .hypot(end[1] - beside.at[1])
+                    .max(1e-9);
+            let start = [
+                beside.at[0] + share * (end[0] - beside.at[0]),
+                beside.at[1] + share * (end[1] - beside.at[1]),
+            ];
             svg.line("lead", start, end);
             self.line(&[Some(start), Some(end)], 0.5);
         }
@@ -138,7 +141,7 @@ impl Names {
             Anchor::Middle => area.x + 0.5 * area.width,
             Anchor::End => area.right() - 3.0,
         };
-        svg.text(class, (x, area.y + 0.5 * HEIGHT + RISE), place.anchor, name);
+        svg.text(class, [x, area.y + 0.5 * HEIGHT + RISE], place.anchor, name);
         self.taken.push(area);
     }
 
@@ -152,15 +155,15 @@ impl Names {
                 let away = beside.radius + gap;
                 // The side or corner of the name that looks to the point lies on the ring.
                 let side = |c: f64| if c.abs() < 0.3 { 0.0 } else { c.signum() };
-                let middle = (
-                    beside.at.0 + away * x + 0.5 * (width - 4.0) * side(x),
-                    beside.at.1 + away * y + 0.5 * (HEIGHT - 4.0) * side(y),
-                );
+                let middle = [
+                    beside.at[0] + away * x + 0.5 * (width - 4.0) * side(x),
+                    beside.at[1] + away * y + 0.5 * (HEIGHT - 4.0) * side(y),
+                ];
                 let area = about(middle, width);
                 if !self.free(&area) {
                     continue;
                 }
-                let cosine = x * beside.toward.0 + y * beside.toward.1;
+                let cosine = x * beside.toward[0] + y * beside.toward[1];
                 let mut cost = self.covered(&area) + 9.0 * ring as f64 + 4.0 * (1.0 - cosine);
                 if gap > FAR {
                     cost += 8.0 + self.in_the_way(beside.at, middle, 0.5).min(40.0);
@@ -184,15 +187,15 @@ impl Names {
         let (columns, rows) = (self.frame.width / 8.0, self.frame.height / 8.0);
         for column in 0..columns.clamp(0.0, 200.0) as usize {
             for row in 0..rows.clamp(0.0, 200.0) as usize {
-                let middle = (
+                let middle = [
                     self.frame.x + 8.0 * column as f64,
                     self.frame.y + 8.0 * row as f64,
-                );
+                ];
                 let area = about(middle, width);
                 if !self.free(&area) {
                     continue;
                 }
-                let away = (middle.0 - beside.at.0).hypot(middle.1 - beside.at.1);
+                let away = (middle[0] - beside.at[0]).hypot(middle[1] - beside.at[1]);
                 let cost = away + self.covered(&area);
                 if best.as_ref().is_none_or(|b| cost < b.0) {
                     best = Some((cost, area));
@@ -214,10 +217,10 @@ impl Names {
     fn covered(&self, area: &Frame) -> f64 {
         let on = |(p, half): &&(Pixel, f64)| {
             let half = half + 1.0;
-            p.0 > area.x - half
-                && p.0 < area.right() + half
-                && p.1 > area.y - half
-                && p.1 < area.bottom() + half
+            p[0] > area.x - half
+                && p[0] < area.right() + half
+                && p[1] > area.y - half
+                && p[1] < area.bottom() + half
         };
         10.0 * self.lines.iter().filter(on).count() as f64
     }
@@ -225,8 +228,8 @@ impl Names {
 
 fn about(middle: Pixel, width: f64) -> Frame {
     Frame {
-        x: middle.0 - 0.5 * width,
-        y: middle.1 - 0.5 * HEIGHT,
+        x: middle[0] - 0.5 * width,
+        y: middle[1] - 0.5 * HEIGHT,
         width,
         height: HEIGHT,
     }
@@ -234,10 +237,10 @@ fn about(middle: Pixel, width: f64) -> Frame {
 
 /// Points of a straight line, at most `step` apart.
 fn along(from: Pixel, to: Pixel, step: f64, mut each: impl FnMut(Pixel)) {
-    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+    let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
     let count = (dx.hypot(dy) / step).ceil().clamp(1.0, 1000.0) as usize;
     for k in 0..=count {
         let share = k as f64 / count as f64;
-        each((from.0 + share * dx, from.1 + share * dy));
+        each([from[0] + share * dx, from[1] + share * dy]);
     }
 }

@@ -1,5 +1,6 @@
 //! Panels under each other with one axis along the path.
 
+use crate::chart::axis::Span;
 use crate::chart::label::Frame;
 use crate::chart::panel::{Along, Panel, legend};
 use crate::svg::Svg;
@@ -23,10 +24,13 @@ pub(crate) fn stack(
         .zip(heights())
         .map(|(p, h)| p.gutter(h))
         .fold(0.0, f64::max);
-    let room = (4.0, width - 4.0);
+    let room = Span {
+        low: 4.0,
+        high: width - 4.0,
+    };
     let mut y = 26.0;
     for (index, (panel, height)) in panels.iter().zip(heights()).enumerate() {
-        y += panel.more_title(room.1 - room.0);
+        y += panel.more_title(room.length());
         let frame = Frame {
             x: gutter,
             y,
@@ -42,7 +46,7 @@ pub(crate) fn stack(
         entries.push(("rapids", "rapid move (nothing is cut)".to_owned()));
     }
     if !entries.is_empty() {
-        y += legend(&mut svg, &entries, (gutter, y), width);
+        y += legend(&mut svg, &entries, [gutter, y], width);
     }
     (svg, y - 8.0)
 }

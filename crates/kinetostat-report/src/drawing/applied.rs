@@ -7,10 +7,10 @@
 use kinetostat::Wrench;
 use nalgebra::Vector3;
 
-use crate::chart::outline::Pixel;
 use crate::chart::point_names::{Beside, Names};
 use crate::drawing::symbol::{self, Point};
 use crate::number;
+use crate::svg::Pixel;
 use crate::svg::Svg;
 
 /// Length of an arrow that lies on the drawing, and the least that is drawn, pixels.
@@ -61,7 +61,7 @@ pub(super) fn draw(
         } else {
             let (from, to) = arrow_at(names, tool, &seen);
             // The line of action, where the arrow is away from the tool.
-            let away = |p: Pixel| (p.0 - tool.0).hypot(p.1 - tool.1);
+            let away = |p: Pixel| (p[0] - tool[0]).hypot(p[1] - tool[1]);
             let near = if away(from) < away(to) { from } else { to };
             svg.line("action", tool, near);
             arrow(svg, names, &kind, from, to);
@@ -74,7 +74,7 @@ fn arrow_at(names: &Names, tool: Pixel, seen: &Point) -> (Pixel, Pixel) {
     let share = seen.xy().norm();
     let (x, y) = (seen.x / share, seen.y / share);
     let length = (LENGTH * share).max(SHORTEST);
-    let at = |s: f64| (tool.0 + s * x, tool.1 + s * y);
+    let at = |s: f64| [tool[0] + s * x, tool[1] + s * y];
     let mut best: Option<(f64, (Pixel, Pixel))> = None;
     for (rank, gap) in GAPS.into_iter().enumerate() {
         for (from, to) in [(-gap - length, -gap), (gap, gap + length)] {
@@ -92,17 +92,17 @@ fn arrow_at(names: &Names, tool: Pixel, seen: &Point) -> (Pixel, Pixel) {
 }
 
 fn arrow(svg: &mut Svg, names: &mut Names, kind: &Kind, from: Pixel, to: Pixel) {
-    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+    let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
     let length = dx.hypot(dy).max(1e-9);
     let (x, y) = (dx / length, dy / length);
-    let back = |s: f64| (to.0 - s * x, to.1 - s * y);
+    let back = |s: f64| [to[0] - s * x, to[1] - s * y];
     svg.line("case", from, to);
     svg.line(kind.class, from, back(11.0));
     for k in 0..kind.heads {
         let tip = 9.0 * k as f64;
         let wing = |s: f64| {
             let root = back(tip + 14.0);
-            (root.0 - 5.5 * s * y, root.1 + 5.5 * s * x)
+            [root[0] - 5.5 * s * y, root[1] + 5.5 * s * x]
         };
         let corners = [back(tip), wing(1.0), wing(-1.0)];
         svg.path(
@@ -115,7 +115,7 @@ fn arrow(svg: &mut Svg, names: &mut Names, kind: &Kind, from: Pixel, to: Pixel) 
     let beside = Beside {
         at: from,
         radius: 5.0,
-        toward: (-x, -y),
+        toward: [-x, -y],
     };
     let class = format!("mark-name {}-name", kind.class);
     names.write_as(svg, &class, &beside, &kind.label);
@@ -135,8 +135,8 @@ fn ring(svg: &mut Svg, names: &mut Names, at: Pixel, kind: &Kind, toward: f64) {
         for s in [-1.0, 1.0] {
             svg.line(
                 kind.class,
-                (at.0 - r, at.1 - s * r),
-                (at.0 + r, at.1 + s * r),
+                [at[0] - r, at[1] - s * r],
+                [at[0] + r, at[1] + s * r],
             );
         }
         "away from the eye"

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use crate::chart::outline::Pixel;
 use crate::drawing::order::rim;
+use crate::svg::Pixel;
 use crate::svg::{Svg, pixel};
 
 /// A point of the drawing with its depth, pixels.
@@ -17,7 +17,7 @@ pub(super) const MOTOR: f64 = 9.5;
 pub(super) const SLEEVE: f64 = 6.5;
 
 pub(super) fn flat(p: &Point) -> Pixel {
-    (p.x, p.y)
+    [p.x, p.y]
 }
 
 /// A closed polygon as path data.
@@ -25,7 +25,7 @@ pub(super) fn polygon(points: impl Iterator<Item = Pixel>) -> String {
     let mut data = String::new();
     for (k, p) in points.enumerate() {
         let letter = if k == 0 { 'M' } else { 'L' };
-        data.push_str(&format!("{letter}{} {}", pixel(p.0), pixel(p.1)));
+        data.push_str(&format!("{letter}{} {}", pixel(p[0]), pixel(p[1])));
     }
     if !data.is_empty() {
         data.push('z');
@@ -37,8 +37,8 @@ pub(super) fn circle(at: Pixel, radius: f64) -> String {
     let (r, d) = (pixel(radius), pixel(2.0 * radius));
     format!(
         "M{} {}a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0z",
-        pixel(at.0 - radius),
-        pixel(at.1)
+        pixel(at[0] - radius),
+        pixel(at[1])
     )
 }
 
@@ -118,7 +118,7 @@ pub(super) fn motor(svg: &mut Svg, at: &Point, axis: &Point, across: &Point, hal
     let outline = rim(&all);
     svg.path(
         "drive",
-        &polygon(outline.iter().map(|&i| (all[i].x, all[i].y))),
+        &polygon(outline.iter().map(|&i| [all[i].x, all[i].y])),
     );
     svg.path("drive face", &polygon(near.iter().map(flat)));
     if axis.z.abs() > 0.5 {
@@ -160,7 +160,7 @@ pub(super) fn sleeve(
 pub(super) fn turn(svg: &mut Svg, at: Pixel, axis: &Point) {
     let (x, y) = (axis.x * 10.0, axis.y * 10.0);
     if x.hypot(y) > JOINT + 1.0 {
-        svg.line("pin", (at.0 - x, at.1 - y), (at.0 + x, at.1 + y));
+        svg.line("pin", [at[0] - x, at[1] - y], [at[0] + x, at[1] + y]);
     }
     svg.path("joint", &circle(at, JOINT));
 }
@@ -169,8 +169,8 @@ pub(super) fn turn(svg: &mut Svg, at: Pixel, axis: &Point) {
 pub(super) fn universal(svg: &mut Svg, at: Pixel) {
     let r = 0.7 * JOINT;
     svg.path("joint", &circle(at, JOINT + 0.5));
-    svg.line("cross", (at.0 - r, at.1 - r), (at.0 + r, at.1 + r));
-    svg.line("cross", (at.0 - r, at.1 + r), (at.0 + r, at.1 - r));
+    svg.line("cross", [at[0] - r, at[1] - r], [at[0] + r, at[1] + r]);
+    svg.line("cross", [at[0] - r, at[1] + r], [at[0] + r, at[1] - r]);
 }
 
 /// A ball in its socket.
@@ -189,8 +189,8 @@ pub(super) fn spring_joint(svg: &mut Svg, at: Pixel) {
         let letter = if k == 0 { 'M' } else { 'L' };
         data.push_str(&format!(
             "{letter}{} {}",
-            pixel(at.0 + r * angle.cos()),
-            pixel(at.1 + r * angle.sin())
+            pixel(at[0] + r * angle.cos()),
+            pixel(at[1] + r * angle.sin())
         ));
     }
     svg.path("coil fine", &data);
@@ -206,8 +206,8 @@ pub(super) fn ground(svg: &mut Svg, at: Pixel, away: &Point) {
         nalgebra::Vector2::y()
     };
     let v = nalgebra::Vector2::new(-u.y, u.x);
-    let p = nalgebra::Vector2::new(at.0, at.1);
-    let put = |x: nalgebra::Vector2<f64>| (x.x, x.y);
+    let p = nalgebra::Vector2::new(at[0], at[1]);
+    let put = |x: nalgebra::Vector2<f64>| [x.x, x.y];
     let foot = p + u * 13.0;
     svg.path(
         "foot",
@@ -223,13 +223,13 @@ pub(super) fn ground(svg: &mut Svg, at: Pixel, away: &Point) {
 /// A thin arrow.
 pub(super) fn arrow(svg: &mut Svg, class: &str, from: Pixel, to: Pixel) {
     svg.line(class, from, to);
-    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+    let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
     let length = dx.hypot(dy);
     if length < 7.0 {
         return;
     }
     let (x, y) = (dx / length, dy / length);
-    let wing = |s: f64| (to.0 - 6.5 * x - 2.8 * s * y, to.1 - 6.5 * y + 2.8 * s * x);
+    let wing = |s: f64| [to[0] - 6.5 * x - 2.8 * s * y, to[1] - 6.5 * y + 2.8 * s * x];
     svg.path(
         &format!("{class} head"),
         &polygon([to, wing(1.0), wing(-1.0)].into_iter()),

@@ -37,7 +37,8 @@ pub(crate) fn errors(result: &Shown<'_>, sheet: Sheet) -> String {
     let names: Vec<_> = names.chain(uncertainty::name(result)).collect();
     stacked(
         &panels,
-        (&heights, &names),
+        &heights,
+        &names,
         &along,
         sheet,
         "Distance of the tool from its programmed place along the path",
@@ -98,7 +99,8 @@ pub(crate) fn stiffness(result: &Shown<'_>, sheet: Sheet) -> String {
     };
     stacked(
         &panels,
-        (&heights, &[]),
+        &heights,
+        &[],
         &along,
         sheet,
         "Smallest stiffness against a force and share of the way to buckling along the path",
@@ -330,7 +332,8 @@ fn span_of(values: &[Option<(f64, f64)>]) -> Option<Span> {
 /// Panels under each other as an element of the page; empty without panels.
 fn stacked(
     panels: &[Panel],
-    (heights, names): (&[f64], &[(&str, String)]),
+    heights: &[f64],
+    names: &[(&str, String)],
     along: &Along,
     sheet: Sheet,
     description: &str,
@@ -339,7 +342,7 @@ fn stacked(
         return String::new();
     }
     let (svg, height) = stack(panels, heights, along, sheet.width(), names);
-    svg.inline(sheet.class(), (sheet.width(), height), description)
+    svg.inline(sheet.class(), [sheet.width(), height], description)
 }
 
 /// Small panels in two columns, or one on a narrow sheet.
@@ -368,9 +371,13 @@ pub(crate) fn grid(panels: &[Panel], along: &Along, sheet: Sheet, description: &
         };
         // Below the last panel of each column stand the numbers.
         let left = 4.0 + column as f64 * (column_width + 22.0);
+        let room = Span {
+            low: left,
+            high: left + title,
+        };
         let numbered = index + columns >= panels.len();
-        panel.draw(&mut svg, frame, (left, left + title), along, numbered);
+        panel.draw(&mut svg, frame, room, along, numbered);
     }
     let total = rows as f64 * row_height + 34.0;
-    svg.inline(sheet.class(), (sheet.width(), total), description)
+    svg.inline(sheet.class(), [sheet.width(), total], description)
 }

@@ -21,7 +21,7 @@ pub(crate) fn figure(result: &Shown<'_>, sheet: Sheet) -> String {
     match charts(cutting, sheet.width()) {
         Some((svg, height)) => svg.inline(
             sheet.class(),
-            (sheet.width(), height),
+            [sheet.width(), height],
             "Force, engagement and torque of the cut along the path",
         ),
         None => String::new(),

@@ -23,18 +23,18 @@ pub(crate) fn draw(cutting: &CuttingResult, map: Option<&Section>, title: &str) 
     if let Some(map) = map {
         let (drawn, size) = map.fitted();
         svg.below(0.0, &drawn);
-        down = size.1 + 8.0;
+        down = size[1] + 8.0;
     }
     let mut lower = Svg::default();
     let height = match charts(cutting, WIDTH - 2.0 * MARGIN) {
         Some((charts, height)) => {
-            lower.at((MARGIN, 12.0), &charts);
+            lower.at([MARGIN, 12.0], &charts);
             height + 24.0
         }
         None => {
             lower.text(
                 "name",
-                (0.5 * WIDTH, 60.0),
+                [0.5 * WIDTH, 60.0],
                 Anchor::Middle,
                 "nothing is cut",
             );
@@ -42,9 +42,9 @@ pub(crate) fn draw(cutting: &CuttingResult, map: Option<&Section>, title: &str) 
         }
     };
     let mut card = Svg::default();
-    card.rectangle("card", (0.5, 0.5), (WIDTH - 1.0, height - 1.0), 10.0);
+    card.rectangle("card", [0.5, 0.5], [WIDTH - 1.0, height - 1.0], 10.0);
     svg.below(down, &card);
     svg.below(down, &lower);
     let style = [Plot::style(), Section::style(), AREA].concat();
-    svg.document((WIDTH, down + height), title, &style)
+    svg.document([WIDTH, down + height], title, &style)
 }
