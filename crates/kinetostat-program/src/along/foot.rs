@@ -109,7 +109,7 @@ impl NominalPath<'_> {
             .chords
             .locate_within_distance((*point).into(), within_mm * within_mm);
         let mut feet: Vec<(Foot, bool)> = near
-            .filter_map(|chord| self.foot_of_chord(chord.data, point))
+            .filter_map(|chord| self.foot_of_chord(chord.data.0, chord.data.1, point))
             .filter(|(foot, _)| foot.distance_mm <= within_mm)
             .collect();
         feet.sort_by(|a, b| a.0.along_mm.total_cmp(&b.0.along_mm));
@@ -124,7 +124,8 @@ impl NominalPath<'_> {
     /// the path comes nearer on the next chord.
     fn foot_of_chord(
         &self,
-        (piece, [from, to]): (usize, [f64; 2]),
+        piece: usize,
+        [from, to]: [f64; 2],
         point: &Vector3<f64>,
     ) -> Option<(Foot, bool)> {
         let foot = self.foot(piece, [from, to], point);

@@ -127,7 +127,7 @@ pub fn verify_against_field(
         }
         if !is_divided(motion) {
             if is_corrected_at_end(motion) {
-                looks.push(Look::on(motion, piece, (1.0, 1.0, None), At::EndOfMove));
+                looks.push(Look::on(motion, piece, 1.0, 1.0, None, At::EndOfMove));
             }
             continue;
         }
@@ -155,7 +155,7 @@ pub fn verify_against_field(
             &breaks.1,
             field.turns(),
             |part, share, turning, at| {
-                let look = Look::on(motion, piece, (part, share, turning), at);
+                let look = Look::on(motion, piece, part, share, turning, at);
                 looks.push(Look { allowed, ..look });
             },
         );
@@ -172,7 +172,9 @@ impl Look {
     fn on(
         motion: &Move,
         piece: &Piece,
-        (part, share, turning): (f64, f64, Option<Turning>),
+        part: f64,
+        share: f64,
+        turning: Option<Turning>,
         at: At,
     ) -> Self {
         Self {

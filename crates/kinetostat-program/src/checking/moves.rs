@@ -91,7 +91,7 @@ impl Verifier<'_> {
             self.check_speed(motion, piece, read)?;
             self.check_directions(index, motion, read)?;
             let turned = self.check_turned_axes(index, motion, read)?;
-            check_extra_axes(motion, piece, (read, turned))?;
+            check_extra_axes(motion, piece, read, &turned)?;
         }
         if expected != (own.end, 0.0) {
             return Err(fail(
@@ -335,7 +335,7 @@ impl Verifier<'_> {
         let off = (at(&again.end_deg) - wanted).norm();
         if own.great_circle.is_some() {
             let stand = written.map_or_else(|| own.angles_deg(piece.share_to), Clone::clone);
-            same_angles(motion, &own, (&again.end_deg, &stand))?;
+            same_angles(motion, &own, &again.end_deg, &stand)?;
         }
         let before = index.checked_sub(1).and_then(tilt);
         let tilted = before.unwrap_or(0.0) + tilt(index).unwrap_or(0.0);
@@ -413,7 +413,8 @@ const AT_POLE_RAD: f64 = 1e-6;
 fn same_angles(
     motion: &Move,
     own: &RotaryTurn,
-    (read, written): (&[f64], &[f64]),
+    read: &[f64],
+    written: &[f64],
 ) -> Result<(), WriteError> {
     let from_pole = own.axes.from_pole_rad(written).unwrap_or(FRAC_PI_2);
     if from_pole < AT_POLE_RAD {
@@ -439,7 +440,8 @@ fn same_angles(
 fn check_extra_axes(
     motion: &Move,
     piece: &Piece,
-    (read, turned): (&Move, Vec<char>),
+    read: &Move,
+    turned: &[char],
 ) -> Result<(), WriteError> {
     let broken = |letter: char| {
         Err(fail(

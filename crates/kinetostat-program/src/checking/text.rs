@@ -197,7 +197,7 @@ impl Verifier<'_> {
         }
         let mut codes = self.codes(self.output, first);
         for ((index, line), shape) in further.iter().zip(&shapes[1..]) {
-            self.check_further(number, (motion, *shape), *index, line)?;
+            self.check_further(number, motion, *shape, *index, line)?;
             let repeated = |code: &(u8, i64)| names_motion && *code == (b'G', 10);
             let further_codes = self.codes(self.output, line);
             codes.extend(further_codes.into_iter().filter(|code| !repeated(code)));
@@ -283,7 +283,8 @@ impl Verifier<'_> {
     fn check_further(
         &self,
         number: usize,
-        (motion, shape): (&Move, Shape),
+        motion: &Move,
+        shape: Shape,
         index: usize,
         line: &Line,
     ) -> Result<(), WriteError> {

@@ -43,12 +43,7 @@ pub fn verify_written(
     };
     let output = Program::read(corrected.bytes.clone()).map_err(unreadable)?;
     let output_path = interpret(&output, reading).map_err(unreadable)?;
-    against_input(
-        (input, input_path),
-        (&output, &output_path),
-        corrected,
-        writing,
-    )
+    against_input(input, input_path, &output, &output_path, corrected, writing)
 }
 
 /// A written program that was read again, against the program that it was written from.
@@ -56,8 +51,10 @@ pub fn verify_written(
 /// # Errors
 /// As [`verify_written`].
 pub(crate) fn against_input(
-    (input, input_path): (&Program, &Path),
-    (output, output_path): (&Program, &Path),
+    input: &Program,
+    input_path: &Path,
+    output: &Program,
+    output_path: &Path,
     corrected: &Corrected,
     writing: &WriteOptions,
 ) -> Result<Verification, WriteError> {

@@ -46,7 +46,7 @@ impl MachineProgram for GcodePart<'_, '_> {
         monitor: &dyn Monitor,
     ) -> Result<Corrected, WriteError> {
         let (program, path) = (&self.part.program, &self.part.path);
-        let divided = Divided::of((program, path), (field, options), monitor)?;
+        let divided = Divided::of(program, path, field, options, monitor)?;
         let before = self.place.before().ok_or(WriteError::Cancelled)?;
         divided.emit(before.writer())
     }
@@ -64,7 +64,7 @@ impl MachineProgram for GcodePart<'_, '_> {
             what: format!("it cannot be read again: {error}"),
         })?;
         self.place.put_behind(behind);
-        let input = (&self.part.program, &self.part.path);
-        against_input(input, (&output, &output_path), written, options)
+        let (input, input_path) = (&self.part.program, &self.part.path);
+        against_input(input, input_path, &output, &output_path, written, options)
     }
 }

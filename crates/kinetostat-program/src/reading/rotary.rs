@@ -94,7 +94,8 @@ impl<'o> RotaryWords<'o> {
         self,
         block: &Block<'_>,
         kind: MoveKind,
-        (before, modes): (&[Option<f64>], &Modes),
+        before: &[Option<f64>],
+        modes: &Modes,
         places: &mut Places,
     ) -> Result<Option<Box<ToolTurn>>, ProgramError> {
         let Some(axes) = self.options.rotary.clone().filter(|_| !modes.axes_in_doubt) else {

@@ -270,7 +270,7 @@ impl<'a> Emitter<'a> {
         let own = self.program.ending(line);
         let between = if own.is_empty() { usual } else { own };
         let before = self.bytes.len();
-        let mut block = BlockWriter::new((self.program, line), motion, &self.style, self.options);
+        let mut block = BlockWriter::new(self.program, line, motion, &self.style, self.options);
         block.turned.were_turned = self.state.turned_deg.iter().any(|turned| *turned != 0.0);
         let (mut steps, nodes) =
             self.steps
@@ -382,7 +382,7 @@ impl<'a> Emitter<'a> {
                 self.state.motion = Some(motion_of(motion));
             }
         } else {
-            let block = BlockWriter::new((self.program, line), motion, &self.style, self.options);
+            let block = BlockWriter::new(self.program, line, motion, &self.style, self.options);
             let content = block.uncorrected_line(&mut self.state);
             self.push_line(motion.line, content, self.program.ending(line))?;
         }

@@ -103,7 +103,7 @@ impl<'a> PieceAccount<'a> {
             feed_limited: written.feed_limited,
         };
         let written_mm = piece.length_mm(&self.path.moves[move_index]);
-        self.note_piece(move_index, step, (written, written_mm));
+        self.note_piece(move_index, step, written, written_mm);
         self.pieces.push(piece);
     }
 
@@ -120,7 +120,8 @@ impl<'a> PieceAccount<'a> {
         &mut self,
         move_index: usize,
         step: &OutputMove,
-        (written, written_mm): (&AsWritten, f64),
+        written: &AsWritten,
+        written_mm: f64,
     ) {
         let motion = &self.path.moves[move_index];
         let accounting = &mut self.accounting;
@@ -164,8 +165,8 @@ impl<'a> PieceAccount<'a> {
                 true => Whose::Input,
                 false => Whose::Piece,
             };
-            let block = (written_mm, seconds);
-            self.short.note((motion, whose), block, self.options);
+            self.short
+                .note(motion, whose, written_mm, seconds, self.options);
             self.rate.note(seconds);
             self.note_backward(move_index, step, written);
         } else {

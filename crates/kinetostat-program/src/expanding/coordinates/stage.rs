@@ -72,7 +72,8 @@ impl<'o> Coordinates<'o> {
         &mut self,
         text: &[u8],
         origin: Origin,
-        (radius, flat): (&mut Radius<'o>, &mut Flat<'o>),
+        radius: &mut Radius<'o>,
+        flat: &mut Flat<'o>,
         dialect: Dialect,
     ) -> Result<(), Trouble> {
         // LinuxCNC has none of these words.
@@ -85,7 +86,7 @@ impl<'o> Coordinates<'o> {
         }
         let block = Block::of(text)?;
         if let Some(switch) = block.switch {
-            return self.switch(switch, origin, (radius, flat));
+            return self.switch(switch, origin, radius, flat);
         }
         let mut map = self.map;
         map.take_away(block.ends)?;
@@ -96,7 +97,7 @@ impl<'o> Coordinates<'o> {
             if map.turn.is_none() {
                 self.to_state = [0, 1, 2].map(|axis| self.to_state[axis] && !ended(axis));
             }
-            self.become_(map, origin, (radius, flat))?;
+            self.become_(map, origin, radius, flat)?;
         }
         let rest = self.with_code_due(block.rest.trim_ascii_end());
         match (rest.as_ref(), &mut self.programmed) {
@@ -157,7 +158,8 @@ impl<'o> Coordinates<'o> {
         &mut self,
         map: Map,
         origin: Origin,
-        (radius, flat): (&mut Radius<'o>, &mut Flat<'o>),
+        radius: &mut Radius<'o>,
+        flat: &mut Flat<'o>,
     ) -> Result<(), Trouble> {
         self.map = map;
         if map.is_nothing() {
@@ -194,7 +196,8 @@ impl<'o> Coordinates<'o> {
         &mut self,
         switch: Switch,
         origin: Origin,
-        (radius, flat): (&mut Radius<'o>, &mut Flat<'o>),
+        radius: &mut Radius<'o>,
+        flat: &mut Flat<'o>,
     ) -> Result<(), Trouble> {
         refuse_contour(radius)?;
         let state = self.interpreter().unwrap_or(&flat.interpreter);
@@ -303,7 +306,7 @@ impl<'o> Coordinates<'o> {
             }
         }
         self.to_state = to_state;
-        self.become_(map, origin, (radius, flat))
+        self.become_(map, origin, radius, flat)
     }
 
     /// A block in other coordinates than the machine's.

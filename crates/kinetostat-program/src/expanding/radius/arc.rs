@@ -91,7 +91,7 @@ impl Contour {
                     centre,
                     radius: (centre - end).norm(),
                 };
-                circles((last, sense), (circle, arc.sense), self.side)
+                circles([last, circle], [sense, arc.sense], self.side)
             }
         }
     }

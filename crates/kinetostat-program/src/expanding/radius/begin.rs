@@ -16,7 +16,8 @@ pub(crate) fn begin(
     switch: Switch,
     spindle: InSpindle,
     diameters_mm: &BTreeMap<u32, f64>,
-    (state, dialect): (&Interpreter<'_>, Dialect),
+    state: &Interpreter<'_>,
+    dialect: Dialect,
 ) -> Result<Option<Contour>, Wrong> {
     let [first, second, across] = state.plane_axes();
     if across == 0 {

@@ -80,11 +80,10 @@ pub(crate) fn off_arc(within: Within) -> Along {
 /// By the law of cosines in the triangle of the two centres and the meeting point, which lies on the side of the line of
 /// centres where the tool leaves the first circle for the second.
 pub(crate) fn circles(
-    first: (Circle, Sense),
-    second: (Circle, Sense),
+    [one, two]: [Circle; 2],
+    [one_sense, two_sense]: [Sense; 2],
     side: Side,
 ) -> Result<Point, Wrong> {
-    let ((one, one_sense), (two, two_sense)) = (first, second);
     let between = two.centre - one.centre;
     let distance = between.norm();
     if one.radius * distance < f64::EPSILON {

@@ -144,8 +144,8 @@ impl<'o> Radius<'o> {
         }
         let begins_beside = matches!(self.state, State::Beside);
         let diameters = &self.diameters_mm;
-        let state = (self.interpreter(flat), self.dialect);
-        let begun = begin(switch, self.spindle, diameters, state)?;
+        let state = self.interpreter(flat);
+        let begun = begin(switch, self.spindle, diameters, state, self.dialect)?;
         self.state = match begun {
             Some(contour) => {
                 self.programmed.get_or_insert_with(|| flat.following());

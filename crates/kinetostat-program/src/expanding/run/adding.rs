@@ -12,10 +12,13 @@ impl Runner<'_> {
         let origin = self.origin();
         self.flat
             .name_file(origin.file, &self.sources[origin.file].name);
-        let below = (&mut self.radius, &mut self.flat);
-        let added = self
-            .coordinates
-            .block(text, origin, below, self.options.dialect);
+        let added = self.coordinates.block(
+            text,
+            origin,
+            &mut self.radius,
+            &mut self.flat,
+            self.options.dialect,
+        );
         added.map_err(|trouble| match trouble {
             // Shows the text of the file: the user has not seen the flat block.
             Trouble::Block(error) if error.line == origin.line => ProgramError {

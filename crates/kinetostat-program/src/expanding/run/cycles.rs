@@ -132,8 +132,8 @@ impl Runner<'_> {
             ));
         }
         let rigid = self.rigid.as_ref().map(|rigid| rigid.text.as_str());
-        let state = (self.state(), self.options.dialect, rigid);
-        let made = cycle(code, block, self.cycle, state);
+        let dialect = self.options.dialect;
+        let made = cycle(code, block, self.cycle, self.state(), dialect, rigid);
         let (texts, cycle) = made.map_err(|(reason, remedy)| self.refuse(&reason, remedy))?;
         let stays = is_fanuc && cycle.is_the_controls(self.rigid.is_some());
         if stays && self.coordinates.interpreter().is_some() {

@@ -102,7 +102,8 @@ impl Parameters for Seen<'_, '_> {
 
 /// Gives a parameter a value.
 pub(crate) fn assign(
-    (parameter, number): (&Parameter, Option<u32>),
+    parameter: &Parameter,
+    number: Option<u32>,
     value: f64,
     frame: &mut Frame,
     shared: &mut Shared,

@@ -190,7 +190,7 @@ impl<'o> Runner<'o> {
     ) -> Result<(), ProgramError> {
         let last = self.frames.len() - 1;
         let (frame, shared) = (&mut self.frames[last], &mut self.shared);
-        let done = assign((to, number), value, frame, shared);
+        let done = assign(to, number, value, frame, shared);
         done.map_err(|(reason, remedy)| self.refuse(&reason, remedy))
     }
 

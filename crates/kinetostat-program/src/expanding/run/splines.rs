@@ -58,7 +58,7 @@ impl Runner<'_> {
             ));
         };
         let before = self.spline.take();
-        let made = spline(code, block, before, ([x, y], place.incremental));
+        let made = spline(code, block, before, [x, y], place.incremental);
         let made = made.map_err(|(reason, remedy)| self.refuse(&reason, remedy))?;
         for end in made.ends {
             if let Some(text) = place.go("G1", [Some(end[0]), Some(end[1]), None]) {

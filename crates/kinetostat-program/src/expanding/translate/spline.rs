@@ -52,7 +52,8 @@ pub(crate) fn spline(
     code: u32,
     block: &MotionBlock,
     before: Option<Spline>,
-    (start, incremental): ([f64; 2], bool),
+    start: [f64; 2],
+    incremental: bool,
 ) -> Result<Made, Wrong> {
     check(code, block, before.as_ref())?;
     let end = [(0, b'X'), (1, b'Y')].map(|(axis, letter)| match block.value(letter) {

@@ -50,17 +50,16 @@ impl Interpreter<'_> {
         let start = self.places.position;
         let known_before = self.places.known;
         let end = self.end_of_move(block, kind, mm_per_unit)?;
-        let ends = (start, end);
-        let curve = self.curve_of_move(block, (motion, mm_per_unit), ends, known_before)?;
+        let curve = self.curve_of_move(block, motion, mm_per_unit, start, end, known_before)?;
         self.places.position = end;
         let angles = self.rotary.angles(&self.modes);
         let circle = self
             .rotary
-            .take_direction(block, (kind, motion), &mut self.modes)?;
+            .take_direction(block, kind, motion, &mut self.modes)?;
         let extra = self.modes.extra.read(block, self.modes.incremental);
         let tool_turn = self
             .rotary
-            .turn_of_move(block, kind, (&angles, &self.modes), &mut self.places)?
+            .turn_of_move(block, kind, &angles, &self.modes, &mut self.places)?
             .map(|turn| with_circle(turn, circle));
         let lost = self.places.first_lost();
         if lost_before.is_some() {
@@ -196,8 +195,10 @@ impl Interpreter<'_> {
     fn curve_of_move(
         &mut self,
         block: &Block<'_>,
-        (motion, mm_per_unit): (Motion, f64),
-        (start, end): (Vector3<f64>, Vector3<f64>),
+        motion: Motion,
+        mm_per_unit: f64,
+        start: Vector3<f64>,
+        end: Vector3<f64>,
         known_before: [bool; 3],
     ) -> Result<Curve, ProgramError> {
         match motion {

@@ -23,7 +23,8 @@ pub(crate) fn arc_words(
     axes: &AxisWords<'_>,
     state: &mut OutputState,
     step: &OutputMove,
-    (from, place): (Vector3<f64>, Place),
+    from: Vector3<f64>,
+    place: Place,
 ) -> Result<Vec<ArcWord>, WriteError> {
     state.arc = None;
     let (Some(fitted), Curve::Arc(arc)) = (&step.arc, &axes.motion.curve) else {

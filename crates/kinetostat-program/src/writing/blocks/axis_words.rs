@@ -35,7 +35,7 @@ impl AxisWords<'_> {
                 Place::OwnLine => self.text.number_of(letter),
                 Place::FurtherLine => None,
             };
-            let number = self.number_to(state, axis, (target_mm[axis], written));
+            let number = self.number_to(state, axis, target_mm[axis], written);
             words.extend(number.map(|number| (letter, number)));
         }
         words
@@ -52,7 +52,7 @@ impl AxisWords<'_> {
             let Some(written) = self.text.number_of(letter) else {
                 continue;
             };
-            let number = self.number_to(state, axis, (target_mm[axis], Some(written)));
+            let number = self.number_to(state, axis, target_mm[axis], Some(written));
             words.extend(number.map(|number| (letter, number)));
         }
         words
@@ -64,7 +64,8 @@ impl AxisWords<'_> {
         &self,
         state: &mut OutputState,
         axis: usize,
-        (target_mm, written): (f64, Option<f64>),
+        target_mm: f64,
+        written: Option<f64>,
     ) -> Option<String> {
         let half = 0.5 * 0.1_f64.powi(self.decimals as i32) * (1.0 + 1e-6);
         if let Some(word) = written {

@@ -27,13 +27,14 @@ impl FeedWords<'_> {
         &self,
         state: &mut OutputState,
         step: &OutputMove,
-        (pieces, written_mm): (usize, f64),
+        pieces: usize,
+        written_mm: f64,
         edits: &mut Edits,
     ) {
         if self.text.word(b'F').is_some() {
             state.feed = self.motion.feed;
         }
-        if let Some(number) = self.of_piece(state, step, (pieces, written_mm)) {
+        if let Some(number) = self.of_piece(state, step, pieces, written_mm) {
             self.text.edit_word(edits, b'F', number);
         }
     }
@@ -43,7 +44,8 @@ impl FeedWords<'_> {
         &self,
         state: &mut OutputState,
         step: &OutputMove,
-        (pieces, written_mm): (usize, f64),
+        pieces: usize,
+        written_mm: f64,
     ) -> Option<String> {
         state.feed_limited = false;
         let feed = self.motion.feed?;
@@ -51,7 +53,7 @@ impl FeedWords<'_> {
             return None;
         }
         if self.motion.turns_in_place() {
-            return self.of_turn(state, step, (pieces, written_mm));
+            return self.of_turn(state, step, pieces, written_mm);
         }
         let part_mm = self
             .motion
@@ -90,7 +92,8 @@ impl FeedWords<'_> {
         &self,
         state: &mut OutputState,
         step: &OutputMove,
-        (pieces, written_mm): (usize, f64),
+        pieces: usize,
+        written_mm: f64,
     ) -> Option<String> {
         let feed = self.motion.feed?;
         let in_time = self.by_time || feed.mode == FeedMode::InverseTime;

@@ -34,7 +34,8 @@ pub(crate) struct Division {
 pub(crate) fn divide(
     path: &Path,
     field: &dyn CorrectionField,
-    (options, wanted): (&WriteOptions, &dyn Fn(usize) -> Fitted),
+    options: &WriteOptions,
+    wanted: &dyn Fn(usize) -> Fitted,
     monitor: &dyn Monitor,
 ) -> Result<Division, WriteError> {
     let directed = directed_moves(path);
@@ -59,10 +60,10 @@ pub(crate) fn divide(
     };
     let mut nodes = Vec::new();
     let mut accepted = Vec::new();
-    let mut open = first_round(&mut queries, (options, &fitted), &directed, &mut nodes)?;
+    let mut open = first_round(&mut queries, options, &fitted, &directed, &mut nodes)?;
     while !open.is_empty() {
         answer(&mut queries, &mut open, options)?;
-        open = next_round((path, &directed), open, options, &mut nodes, &mut accepted);
+        open = next_round(path, &directed, open, options, &mut nodes, &mut accepted);
         if nodes.len() + open.len() > options.max_pieces {
             let line = open
                 .first()
@@ -83,7 +84,7 @@ pub(crate) fn divide(
             .cmp(&b.move_index)
             .then(a.share.total_cmp(&b.share))
     });
-    let mut nodes = merge(nodes, (&accepted, &directed), options);
+    let mut nodes = merge(nodes, &accepted, &directed, options);
     refuse_other_angles(path, &nodes, &directed)?;
     let jumps = follow_turns(&mut queries, &mut nodes, options)?;
     accepted.retain(|stretch| {
@@ -128,7 +129,8 @@ fn answer(
 
 /// Accepts the good stretches and halves the others.
 fn next_round(
-    (path, directed): (&Path, &[Option<DirectedMove<'_>>]),
+    path: &Path,
+    directed: &[Option<DirectedMove<'_>>],
     open: Vec<Stretch>,
     options: &WriteOptions,
     nodes: &mut Vec<Node>,

@@ -174,7 +174,7 @@ impl Fit<'_> {
             return None;
         };
         let within_mm = self.left_mm(span, within_mm)?;
-        let tube = |places: &[Place]| self.arcs((arc, form), span, places, within_mm);
+        let tube = |places: &[Place]| self.arcs(arc, form, span, places, within_mm);
         tube(&self.few(span))?;
         tube(&self.all(span))
     }
@@ -215,7 +215,7 @@ impl Fit<'_> {
             });
         }
         if let Shape::Arcs(arc, form) = self.shape
-            && let Some(tube) = self.arcs((arc, form), span, places, allowed_mm)
+            && let Some(tube) = self.arcs(arc, form, span, places, allowed_mm)
             && (tube.heights[0]..=tube.heights[1]).contains(&span.ends[1].dot(&arc.axis))
         {
             return Some(piece(Some(tube.arc)));
@@ -230,7 +230,8 @@ impl Fit<'_> {
 
     fn arcs(
         &self,
-        (arc, form): (&Arc, ArcForm),
+        arc: &Arc,
+        form: ArcForm,
         span: &Span,
         places: &[Place],
         within_mm: f64,
@@ -275,7 +276,7 @@ impl Fit<'_> {
             return None;
         }
         let start = span.ends[0].dot(&arc.axis);
-        let heights = heights(arc, start, (places, &points), (&circle, &fitted), within_mm)?;
+        let heights = heights(arc, start, places, &points, &circle, &fitted, within_mm)?;
         Some(Tube {
             arc: fitted,
             heights,
@@ -361,8 +362,10 @@ fn is_steady(slip: &[f64; 2]) -> bool {
 fn heights(
     arc: &Arc,
     start: f64,
-    (places, points): (&[Place], &[[f64; 2]]),
-    (circle, fitted): (&Circle, &FittedArc),
+    places: &[Place],
+    points: &[[f64; 2]],
+    circle: &Circle,
+    fitted: &FittedArc,
     within_mm: f64,
 ) -> Option<[f64; 2]> {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
