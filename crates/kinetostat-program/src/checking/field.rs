@@ -4,11 +4,10 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::checking::verifier::fail;
+use crate::checking::fail;
 use crate::error::WriteError;
-use crate::field::request::{CorrectionField, Monitor, Request, Turning};
-use crate::irregular::irregular;
-use crate::number::larger;
+use crate::field::{CorrectionField, Monitor, Request, Turning};
+use crate::number::{irregular, larger};
 use crate::path::moves::{Knowledge, Move, Path};
 use crate::writing::node::{is_corrected_at_end, is_divided};
 use crate::writing::options::WriteOptions;

@@ -4,15 +4,13 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::Vector3;
 
+use crate::checking::{Verifier, fail};
 use crate::error::WriteError;
-use crate::irregular::irregular;
-use crate::number::larger;
+use crate::number::{irregular, larger};
 use crate::path::curve::{Curve, NO_LENGTH_MM};
 use crate::path::moves::{ExtraMode, FeedMode, Knowledge, Move, MoveKind, Path};
-use crate::path::rotary_turn::{RotaryTurn, StatedBy};
+use crate::path::tool_turn::{RotaryTurn, StatedBy};
 use crate::writing::written::Piece;
-
-use crate::checking::verifier::{Verifier, fail};
 
 /// Largest difference between a place as written and as read again, in mm: arithmetic only.
 const SAME_PLACE_MM: f64 = 1e-6;

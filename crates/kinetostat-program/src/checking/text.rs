@@ -2,17 +2,16 @@
 
 use std::ops::Range;
 
-use crate::checking::verifier::{Verifier, fail};
+use crate::checking::{Verifier, fail};
 use crate::error::WriteError;
 use crate::number::decimals_of;
 use crate::path::curve::Curve;
 use crate::path::moves::{Feed, FeedMode, Move};
-use crate::path::rotary_turn::StatedBy;
-use crate::text::line::{Line, Word};
+use crate::path::tool_turn::StatedBy;
 use crate::text::program::Program;
+use crate::text::{Line, Word};
 use crate::writing::blocks::block_text::{is_after_motion, motion_word};
-use crate::writing::header::lines_above;
-use crate::writing::written::Piece;
+use crate::writing::written::{Piece, lines_above};
 
 impl Verifier<'_> {
     /// Checks all lines of the output in order.

@@ -1,5 +1,6 @@
 //! The last check before a written program is put in place: what it promises is read off its bytes.
 
+use crate::checking::{Verification, Verifier};
 use crate::error::{ProgramError, WriteError};
 use crate::path::moves::Path;
 use crate::reading::interpreting::interpret::interpret;
@@ -7,8 +8,6 @@ use crate::reading::options::ReadOptions;
 use crate::text::program::Program;
 use crate::writing::options::WriteOptions;
 use crate::writing::written::Corrected;
-
-use crate::checking::verifier::{Verification, Verifier};
 
 /// Reads a written program with the same reader and checks what every written program satisfies:
 ///

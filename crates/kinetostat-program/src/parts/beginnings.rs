@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::hash::{DefaultHasher, Hasher};
 use std::sync::Arc;
 
-use crate::parts::length::PartLength;
+use crate::parts::PartLength;
 use crate::reading::interpreting::interpreter::InterpreterState;
 use crate::text::program::ReaderState;
 

@@ -3,8 +3,7 @@
 use crate::error::{ProgramError, ProgramErrorKind};
 use crate::path::moves::{Feed, FeedMode, Move, MoveKind};
 use crate::path::rotary::RotaryAxes;
-use crate::path::rotary_turn::{RotaryTurn, StatedBy};
-use crate::path::tool_turn::ToolTurn;
+use crate::path::tool_turn::{RotaryTurn, StatedBy, ToolTurn};
 use crate::reading::block::Block;
 use crate::reading::modes::Modes;
 use crate::reading::options::{OtherAxes, ReadOptions, ToolCentrePoint};

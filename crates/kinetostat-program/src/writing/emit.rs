@@ -5,24 +5,22 @@ use nalgebra::{Vector3, Vector6};
 use crate::error::WriteError;
 use crate::number::larger;
 use crate::path::curve::Curve;
-use crate::path::moves::{Change, Knowledge, Move, Path};
-use crate::path::position_offset::{OffsetChange, PositionOffset};
-use crate::text::line::Line;
+use crate::path::moves::{Change, Knowledge, Move, OffsetChange, Path, PositionOffset};
+use crate::text::Line;
 use crate::text::program::Program;
 use crate::writing::accounting::Accounting;
-use crate::writing::blocks::arc_of_piece::arc_form;
-use crate::writing::blocks::axis_words::UNCHANGED_MM;
+use crate::writing::arc_words::arc_form;
 use crate::writing::blocks::block_text::motion_word;
 use crate::writing::blocks::block_writer::{BlockWriter, ProgramStyle};
+use crate::writing::blocks::words::UNCHANGED_MM;
 use crate::writing::dividing::divide::Division;
-use crate::writing::header::{header, lines_above};
 use crate::writing::merge::Accepted;
 use crate::writing::node::{Node, is_divided};
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::{OutputMove, OutputState, motion_of};
 use crate::writing::piece_account::{AsWritten, PieceAccount};
 use crate::writing::steps::Steps;
-use crate::writing::written::{Corrected, WriterState};
+use crate::writing::written::{Corrected, WriterState, header, lines_above};
 
 pub(crate) struct Emitter<'a> {
     program: &'a Program,

@@ -7,10 +7,9 @@ use crate::path::moves::{Feed, FeedMode, Knowledge, Move, MoveKind, Path, Warnin
 use crate::writing::accounting::{Accounting, Rate, duration, duration_at};
 use crate::writing::node::is_divided;
 use crate::writing::options::WriteOptions;
-use crate::writing::output_state::OutputMove;
+use crate::writing::output_state::{OutputMove, WrittenArc};
 use crate::writing::short_blocks::{ShortBlocks, Whose};
 use crate::writing::written::{Piece, WrittenCircle};
-use crate::writing::written_arc::WrittenArc;
 
 /// Text of a piece as written.
 #[derive(Debug, Clone, Copy, Default)]

@@ -6,8 +6,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::error::WriteError;
-use crate::field::correction::Correction;
-use crate::field::request::{CorrectionField, Monitor};
+use crate::field::{Correction, CorrectionField, Monitor};
 use crate::path::curve::{Arc, Curve};
 use crate::path::moves::{Feed, FeedMode, Knowledge, Move, MoveKind, Path};
 use crate::writing::accounting::Accounting;

@@ -7,7 +7,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::number;
 use crate::path::moves::{ExtraMode, Move};
-use crate::path::rotary_turn::{RotaryTurn, StatedBy};
+use crate::path::tool_turn::{RotaryTurn, StatedBy};
 use crate::writing::directed_moves::DIRECTION_DECIMALS;
 use crate::writing::output_state::{OutputMove, OutputState};
 

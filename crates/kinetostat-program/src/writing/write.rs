@@ -1,7 +1,7 @@
 //! From a program, its path and a field of corrections to the corrected program.
 
 use crate::error::WriteError;
-use crate::field::request::{CorrectionField, Monitor};
+use crate::field::{CorrectionField, Monitor};
 use crate::path::moves::Path;
 use crate::text::program::Program;
 use crate::writing::dividing::beginning::Fitted;

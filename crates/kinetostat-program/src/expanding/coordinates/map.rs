@@ -1,10 +1,11 @@
-//! Transformation of shifted, scaled and rotated coordinates to places in mm of the part frame.
+//! Transformation of shifted, scaled and rotated coordinates to places in mm of the part frame, and the words that switch it.
 
 use nalgebra::Vector3;
 
-use crate::expanding::coordinates::switch::Ending;
+use crate::expanding::Wrong;
 use crate::expanding::radius::geometry::{Axes, Point, Sense, in_plane};
-use crate::expanding::translate::wrong::Wrong;
+use crate::text::lex::{Spanned, Token, tokens_of};
+use crate::text::tenths;
 
 /// Largest difference of two scales that keep a circle a circle.
 const SAME: f64 = 1e-12;
@@ -131,4 +132,183 @@ fn turned(from: Point, angle: f64) -> Point {
         cosine * from.x - sine * from.y,
         sine * from.x + cosine * from.y,
     )
+}
+
+/// Change of the coordinates by a block.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Switch {
+    /// G52.
+    Shift([Option<f64>; 3]),
+    /// G51: centre and factors.
+    Scale([Option<f64>; 3], [f64; 3]),
+    /// G51.1: where the mirrors of the axes stand.
+    Mirror([Option<f64>; 3]),
+    /// G68: centre and angle in degrees.
+    Turn([Option<f64>; 3], f64),
+}
+
+/// Scaling or mirroring that a block ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ending {
+    /// G50: the scale of G51.
+    Scale,
+    /// G50.1: the mirrors of G51.1 on these axes. The numbers of the axis words mean nothing.
+    Mirrors([bool; 3]),
+}
+
+/// A block, the words that end scaling and turning taken out.
+#[derive(Debug, Default)]
+pub(crate) struct Block {
+    pub switch: Option<Switch>,
+    /// G50 or G50.1, and the axes whose mirrors are taken away.
+    pub ends: Option<Ending>,
+    /// G69.
+    pub ends_turn: bool,
+    pub rest: Vec<u8>,
+    /// G codes, in tenths.
+    pub codes: Vec<u32>,
+}
+
+const BEGINNING: &[u32] = &[510, 511, 520, 680];
+const ENDING: &[u32] = &[500, 501, 690];
+
+impl Block {
+    /// Divides a block; none where no such code is in it.
+    pub fn of(text: &[u8]) -> Result<Self, Wrong> {
+        let mut tokens: Vec<Spanned> = Vec::new();
+        tokens_of(text, &mut tokens);
+        let mut block = Self::default();
+        let mut words: Vec<(u8, f64, bool)> = Vec::new();
+        let ends_mirrors = is_there(&tokens, 501);
+        let mut selected = [false; 3];
+        for spanned in &tokens {
+            let piece = &text[spanned.span.clone()];
+            if let Token::Word { letter, value, .. } = spanned.token {
+                let tenths = tenths(value);
+                if letter == b'G' {
+                    block.codes.push(tenths);
+                }
+                if letter == b'G' && ENDING.contains(&tenths) {
+                    block.ends_turn |= tenths == 690;
+                    if tenths == 500 {
+                        block.ends = Some(Ending::Scale);
+                    }
+                    continue;
+                }
+                if let (true, Some(axis)) = (ends_mirrors, b"XYZ".iter().position(|a| *a == letter))
+                {
+                    selected[axis] = true;
+                    continue;
+                }
+                words.push((letter, value, piece.contains(&b'.')));
+            }
+            block.rest.extend_from_slice(piece);
+        }
+        if ends_mirrors {
+            block.ends = Some(Ending::Mirrors(match selected {
+                [false, false, false] => [true; 3],
+                selected => selected,
+            }));
+        }
+        check_beside_ending(&block, selected, &words)?;
+        let begins = |code: &u32| BEGINNING.contains(code);
+        if let Some(code) = block.codes.iter().copied().find(begins) {
+            block.switch = Some(switch(code, &block.codes, &words)?);
+        }
+        if block.rest.trim_ascii().is_empty() {
+            block.rest.clear();
+        }
+        Ok(block)
+    }
+}
+
+fn is_there(tokens: &[Spanned], code: u32) -> bool {
+    tokens.iter().any(|one| one.g_code() == Some(code))
+}
+
+/// Words that mean something else beside G50 and G50.1 on some controllers.
+fn check_beside_ending(
+    block: &Block,
+    selected: [bool; 3],
+    words: &[(u8, f64, bool)],
+) -> Result<(), Wrong> {
+    let has = |letters: &[u8]| words.iter().any(|word| letters.contains(&word.0));
+    match block.ends {
+        Some(Ending::Scale) if has(b"S") => Err((
+            "G50 with S is the largest speed of a lathe's spindle".to_owned(),
+            "remove it, or write G50 without S where it ends scaling",
+        )),
+        Some(Ending::Scale) if has(b"XYZABCUVWIJKPR") || selected != [false; 3] => Err((
+            "axis words beside G50: it ends scaling on a mill, and sets the coordinates of a lathe"
+                .to_owned(),
+            "write G50 in a block of its own",
+        )),
+        Some(Ending::Mirrors(_)) if selected != [false; 3] && has(b"GABCUVWIJKPR") => Err((
+            "G50.1 and other words are in one block: its axis words choose the mirrors that end"
+                .to_owned(),
+            "write them in two blocks",
+        )),
+        _ => Ok(()),
+    }
+}
+
+fn switch(code: u32, codes: &[u32], words: &[(u8, f64, bool)]) -> Result<Switch, Wrong> {
+    let name = format!("G{}", f64::from(code) / 10.0);
+    let others = codes.len() > 1 || words.iter().any(|word| !b"GNXYZIJKPR".contains(&word.0));
+    if others {
+        return Err((
+            format!("{name} and other words are in one block"),
+            "write them in two blocks",
+        ));
+    }
+    let find = |letter: u8| words.iter().find(|word| word.0 == letter);
+    let place = b"XYZ".map(|letter| find(letter).map(|word| word.1));
+    let factor = |letter: u8| match find(letter) {
+        None => Ok(None),
+        Some((_, value, _)) if *value == 0.0 => Err((
+            format!("{name} with a factor of zero"),
+            "write a factor that is not zero",
+        )),
+        Some((_, value, true)) => Ok(Some(*value)),
+        Some((_, value, false)) => Err((
+            format!(
+                "{name} {}{value} without a decimal point is a factor of {value} to some controllers, and counts thousandths (or hundred-thousandths) to others",
+                char::from(letter)
+            ),
+            "write the factor with a decimal point",
+        )),
+    };
+    match code {
+        520 => Ok(Switch::Shift(place)),
+        511 if place == [None; 3] => Err((
+            "G51.1 mirrors no axis".to_owned(),
+            "write X, Y or Z: where the mirror stands",
+        )),
+        511 => Ok(Switch::Mirror(place)),
+        510 => {
+            let all = factor(b'P')?;
+            let own = [factor(b'I')?, factor(b'J')?, factor(b'K')?];
+            match (all, own) {
+                (Some(all), [None, None, None]) => Ok(Switch::Scale(place, [all; 3])),
+                (None, [None, None, None]) => Err((
+                    "G51 without a factor (P, or I, J, K): it is a parameter of the controller"
+                        .to_owned(),
+                    "write P with a decimal point",
+                )),
+                (None, own) => Ok(Switch::Scale(place, own.map(|k| k.unwrap_or(1.0)))),
+                (Some(_), _) => Err((
+                    "G51 with P and with I, J or K".to_owned(),
+                    "write P, or the factors of the axes",
+                )),
+            }
+        }
+        _ => match find(b'R') {
+            _ if [b'I', b'J', b'K', b'P'].iter().any(|l| find(*l).is_some()) => Err((
+                "G68 with I, J, K or P tilts the plane".to_owned(),
+                "write G68 with the two axes of the plane and R",
+            )),
+            Some((_, angle, _)) => Ok(Switch::Turn(place, *angle)),
+            None => Err(("G68 has no angle (R)".to_owned(), "write R, in degrees")),
+        },
+    }
 }

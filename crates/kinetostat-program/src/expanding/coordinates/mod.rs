@@ -7,4 +7,3 @@
 
 pub(crate) mod map;
 pub(crate) mod stage;
-mod switch;

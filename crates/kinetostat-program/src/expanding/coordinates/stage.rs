@@ -4,20 +4,15 @@ use std::borrow::Cow;
 
 use nalgebra::Vector3;
 
-use crate::expanding::coordinates::map::Map;
-use crate::expanding::coordinates::switch::{Block, Switch};
-use crate::expanding::expanded::Origin;
+use crate::expanding::coordinates::map::{Block, Map, Switch};
 use crate::expanding::flat::Flat;
-use crate::expanding::options::Dialect;
 use crate::expanding::radius::contour::{Programmed, ProgrammedShape};
 use crate::expanding::radius::geometry::{Axes, in_plane};
-use crate::expanding::radius::motion::{Motion, no_motion};
-use crate::expanding::radius::piece::Shape;
+use crate::expanding::radius::pending::Shape;
 use crate::expanding::radius::stage::Radius;
-use crate::expanding::radius::trouble::Trouble;
-use crate::expanding::radius::words::{divided, other_side};
+use crate::expanding::radius::words::{Motion, divided, no_motion, other_side};
 use crate::expanding::translate::block::{MotionBlock, Polar};
-use crate::expanding::translate::wrong::Wrong;
+use crate::expanding::{Dialect, Origin, Trouble, Wrong};
 use crate::path::curve::Curve;
 use crate::path::moves::{Move, MoveKind};
 use crate::reading::interpreting::interpreter::Interpreter;

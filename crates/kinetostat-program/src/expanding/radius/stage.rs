@@ -6,16 +6,12 @@
 
 use std::collections::BTreeMap;
 
-use crate::expanding::expanded::Origin;
 use crate::expanding::flat::Flat;
-use crate::expanding::options::{Dialect, ExpandOptions};
-use crate::expanding::radius::begin::begin;
 use crate::expanding::radius::blocks::{Block, First, Next, behind, within};
 use crate::expanding::radius::contour::Contour;
-use crate::expanding::radius::cutter::InSpindle;
-use crate::expanding::radius::trouble::Trouble;
+use crate::expanding::radius::cutter::{InSpindle, begin};
 use crate::expanding::radius::words::{Switch, Words, asks_behind, words};
-use crate::expanding::translate::wrong::Wrong;
+use crate::expanding::{Dialect, ExpandOptions, Origin, Trouble, Wrong};
 use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::options::Units;
 

@@ -2,10 +2,7 @@
 //!
 //! Takes statements; gives plain blocks to the flat program, one after the other, with the line of each.
 
-pub(crate) mod adding;
-pub(crate) mod beside_call;
 pub(crate) mod calls;
-pub(crate) mod control;
 pub(crate) mod cycles;
 pub(crate) mod frame;
 pub(crate) mod loops;
@@ -13,14 +10,7 @@ pub(crate) mod macros;
 pub(crate) mod modal;
 pub(crate) mod offsets;
 pub(crate) mod parameters;
-pub(crate) mod points;
-pub(crate) mod polar;
-pub(crate) mod refused_lines;
-pub(crate) mod rigid;
 pub(crate) mod runner;
 pub(crate) mod saves;
 pub(crate) mod source;
-pub(crate) mod splines;
 pub(crate) mod steps;
-pub(crate) mod system_variables;
-pub(crate) mod taps;

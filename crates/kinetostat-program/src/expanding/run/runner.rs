@@ -2,21 +2,21 @@
 
 use crate::error::{ProgramError, ProgramErrorKind, excerpt};
 use crate::expanding::coordinates::stage::Coordinates;
-use crate::expanding::expanded::Origin;
 use crate::expanding::expression::evaluate::whole;
-use crate::expanding::expression::tree::{Expression, Parameter};
+use crate::expanding::expression::{Expression, Parameter};
 use crate::expanding::flat::Flat;
-use crate::expanding::options::{Dialect, ExpandOptions};
 use crate::expanding::radius::stage::Radius;
 use crate::expanding::run::frame::{Frame, Label, Locals, Opened};
 use crate::expanding::run::modal::Functions;
 use crate::expanding::run::parameters::{Seen, Shared, assign};
-use crate::expanding::run::rigid::Rigid;
 use crate::expanding::run::source::{Source, Subprograms};
-use crate::expanding::source::statement::OLabel;
+use crate::expanding::source::OLabel;
 use crate::expanding::translate::cycle::Cycle;
 use crate::expanding::translate::spline::Spline;
+use crate::expanding::{Dialect, ExpandOptions, Origin, Trouble};
+use crate::path::moves::MoveKind;
 use crate::reading::interpreting::interpreter::Interpreter;
+use crate::text::lex::{Spanned, Token, tokens_of};
 
 /// Subprograms within each other.
 const DEEPEST: usize = 100;
@@ -214,5 +214,96 @@ impl<'o> Runner<'o> {
         }
         self.frames.push(frame);
         Ok(())
+    }
+}
+
+/// M29 in force.
+///
+/// The taps that follow are tied to the spindle (Fanuc).
+#[derive(Debug)]
+pub(crate) struct Rigid {
+    /// M29 with its S: no motion may stand between it and the tap.
+    pub text: String,
+    /// True if a tap has written it.
+    pub is_written: bool,
+}
+
+impl Rigid {
+    /// M29 and S of a block, and the rest of it; `None` where it has no M29.
+    pub fn of(text: &[u8]) -> Option<(Self, Vec<u8>)> {
+        let mut tokens: Vec<Spanned> = Vec::new();
+        tokens_of(text, &mut tokens);
+        let [mut speed, mut rest] = [Vec::new(), Vec::new()];
+        let (mut is_there, mut mark) = (false, "");
+        for one in &tokens {
+            let piece = &text[one.span.clone()];
+            match one.token {
+                Token::Word {
+                    letter: b'M',
+                    value: 29.0,
+                    ..
+                } => is_there = true,
+                // The block may be skipped.
+                Token::Other(b'/') => mark = "/",
+                Token::Word { letter: b'S', .. } => speed.extend([b" ", piece].concat()),
+                _ => rest.extend_from_slice(piece),
+            }
+        }
+        let text = format!("{mark}M29{}", String::from_utf8_lossy(&speed));
+        let is_written = false;
+        is_there.then_some((Self { text, is_written }, rest))
+    }
+}
+
+/// Blocks of plain words, behind all blocks so far.
+impl Runner<'_> {
+    /// Adds a block.
+    pub fn add(&mut self, text: &[u8]) -> Result<(), ProgramError> {
+        let origin = self.origin();
+        self.flat
+            .name_file(origin.file, &self.sources[origin.file].name);
+        let added = self.coordinates.block(
+            text,
+            origin,
+            &mut self.radius,
+            &mut self.flat,
+            self.options.dialect,
+        );
+        added.map_err(|trouble| match trouble {
+            // Shows the text of the file: the user has not seen the flat block.
+            Trouble::Block(error) if error.line == origin.line => ProgramError {
+                found: excerpt(self.sources[origin.file].text(origin.line - 1)),
+                ..error
+            },
+            Trouble::Block(error) => error,
+            Trouble::Line((reason, remedy)) => self.refuse(&reason, remedy),
+        })?;
+        self.note_functions(text)
+    }
+
+    /// Adds the words of a translated block that are no motion.
+    pub fn add_rest(&mut self, words: &[u8]) -> Result<(), ProgramError> {
+        match words.trim_ascii() {
+            [] => Ok(()),
+            words => self.add(words),
+        }
+    }
+
+    /// Keeps what a block leaves in force; a feed motion after M72 has put back "no feed" is refused, as LinuxCNC does.
+    fn note_functions(&mut self, text: &[u8]) -> Result<(), ProgramError> {
+        let mut tokens: Vec<Spanned> = Vec::new();
+        tokens_of(text, &mut tokens);
+        self.functions.note(&tokens);
+        let is_f = |one: &Spanned| matches!(one.token, Token::Word { letter: b'F', .. });
+        self.no_feed &= !tokens.iter().any(is_f);
+        let last = self.flat.interpreter.last_move();
+        let is_new = last.is_some_and(|last| last.line == self.flat.blocks());
+        match self.no_feed && is_new && last.is_some_and(|last| last.kind == MoveKind::Feed) {
+            true => Err(self.refuse(
+                "the modes that were put back are from before the first F: there is no feed",
+                "write F before this block",
+            )),
+            false => Ok(()),
+        }
     }
 }

@@ -4,7 +4,7 @@ use crate::error::ProgramError;
 use crate::expanding::run::modal::{Context, Saved};
 use crate::expanding::run::runner::Runner;
 use crate::text::lex::{Spanned, Token, tokens_of};
-use crate::text::line::tenths;
+use crate::text::tenths;
 
 /// Remedy for modes that cannot be put back.
 const REMEDY: &str = "name it before M70 or M73, or write the modes as words and leave out M72";

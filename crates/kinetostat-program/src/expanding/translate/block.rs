@@ -1,9 +1,10 @@
-//! The words of a block that is translated, and the rest of it, which is run before them.
+//! The words of a block that is translated, the rest of it, which is run before them, and moves in the words of the modes in force.
 
-use crate::expanding::number::number;
+use crate::number::number;
 use crate::reading::block::looks_ahead;
+use crate::reading::interpreting::interpreter::Interpreter;
 use crate::text::lex::{Spanned, Token, tokens_of};
-use crate::text::line::tenths;
+use crate::text::tenths;
 
 /// Letters that belong to a motion.
 const OF_MOTION: &[u8; 15] = b"XYZABCUVWIJKRPQ";
@@ -210,4 +211,107 @@ fn is_motion(tenths: u32) -> bool {
         || matches!(tenths, 0 | 10 | 20 | 30 | 330 | 331 | 380..=385 | 730 | 740 | 760 | 800 | 810..=890)
             && tenths.is_multiple_of(10)
         || matches!(tenths, 331 | 382..=385)
+}
+
+/// A block without the blanks within its numbers; `None` if it has none. Comments stay.
+///
+/// LinuxCNC passes over them: `X 1 0` is X10.
+pub(crate) fn without_blanks_in_numbers(text: &[u8]) -> Option<Vec<u8>> {
+    let is_blank = |byte: &u8| matches!(byte, b' ' | b'\t');
+    let mut made = Vec::with_capacity(text.len());
+    let mut at = 0;
+    let mut commented = false;
+    while let Some(byte) = text.get(at).copied() {
+        match byte {
+            b';' => {
+                made.extend_from_slice(&text[at..]);
+                break;
+            }
+            b'(' => commented = true,
+            b')' => commented = false,
+            _ => {}
+        }
+        if is_blank(&byte) && !commented {
+            let blanks = text[at..].iter().take_while(|byte| is_blank(byte)).count();
+            let before = made.last();
+            let behind = text.get(at + blanks);
+            let in_number = matches!(before, Some(b'0'..=b'9' | b'.' | b'+' | b'-'))
+                && matches!(behind, Some(b'0'..=b'9' | b'.'));
+            if !in_number {
+                made.extend_from_slice(&text[at..at + blanks]);
+            }
+            at += blanks;
+        } else {
+            made.push(byte);
+            at += 1;
+        }
+    }
+    (made.len() < text.len()).then_some(made)
+}
+
+/// Polar words: `@` is a radius, `^` an angle in degrees, about the origin of the program's coordinates.
+impl Polar {
+    /// The place in X and Y that the words mean, for a tool at a place.
+    pub fn place(&self, at: [f64; 2], incremental: bool) -> Result<[f64; 2], &'static str> {
+        let [x, y] = at;
+        let (radius, angle) = (x.hypot(y), y.atan2(x));
+        let is_origin = x == 0.0 && y == 0.0;
+        let of = |radius: f64, angle: f64| [radius * angle.cos(), radius * angle.sin()];
+        let turn = self.angle_deg.map(f64::to_radians);
+        match (incremental, self.radius, turn) {
+            (false, Some(radius), Some(angle)) => Ok(of(radius, angle)),
+            (false, Some(_), None) if is_origin => {
+                Err("a radius (@) without an angle (^) where the tool is at the origin")
+            }
+            (false, Some(radius), None) => Ok(of(radius, angle)),
+            (false, None, Some(angle)) => Ok(of(radius, angle)),
+            (true, ..) if is_origin => {
+                Err("incremental polar words (G91) where the tool is at the origin")
+            }
+            (true, more, turn) => {
+                // First the radius, then the angle.
+                Ok(of(
+                    radius + more.unwrap_or(0.0),
+                    angle + turn.unwrap_or(0.0),
+                ))
+            }
+            (false, None, None) => Ok(at),
+        }
+    }
+}
+
+const LETTERS: [char; 3] = ['X', 'Y', 'Z'];
+
+/// Tool position in program coordinates, as far as it is known, and the distance mode for writing places.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Place {
+    pub at: [Option<f64>; 3],
+    pub incremental: bool,
+}
+
+impl Place {
+    pub fn of(state: &Interpreter<'_>) -> Self {
+        Self {
+            at: [0, 1, 2].map(|axis| state.coordinate(axis).ok()),
+            incremental: state.is_incremental(),
+        }
+    }
+
+    /// A straight move to a place, `G0` or `G1`; `None` if it goes nowhere. Axes without a place stand still.
+    pub fn go(&mut self, code: &str, to: [Option<f64>; 3]) -> Option<String> {
+        let mut text = code.to_owned();
+        for axis in 0..3 {
+            let Some(target) = to[axis] else { continue };
+            if self.at[axis] == Some(target) {
+                continue;
+            }
+            let word = match (self.incremental, self.at[axis]) {
+                (true, Some(at)) => target - at,
+                _ => target,
+            };
+            text.push_str(&format!(" {}{}", LETTERS[axis], number(word)));
+            self.at[axis] = Some(target);
+        }
+        (text.len() > code.len()).then_some(text)
+    }
 }

@@ -1,11 +1,9 @@
 //! Canned cycles: what of a cycle holds for the blocks that follow, and the places of its holes.
 
-use crate::expanding::number::number;
-use crate::expanding::options::Dialect;
-use crate::expanding::translate::block::MotionBlock;
+use crate::expanding::translate::block::{MotionBlock, Place};
 use crate::expanding::translate::holes::{Hole, Spindle};
-use crate::expanding::translate::moves::Place;
-use crate::expanding::translate::wrong::Wrong;
+use crate::expanding::{Dialect, Wrong};
+use crate::number::number;
 use crate::reading::interpreting::interpreter::Interpreter;
 
 /// Maximum repeats of a cycle.

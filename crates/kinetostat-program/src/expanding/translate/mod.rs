@@ -3,12 +3,8 @@
 //! Takes a block of plain words and where the tool is; gives the plain blocks in its place. The motions are those of LinuxCNC
 //! (`docs/src/gcode/g-code.adoc`, "Canned Cycles", "Polar Coordinates").
 
-pub(crate) mod blanks;
 pub(crate) mod block;
 pub(crate) mod cycle;
 pub(crate) mod holes;
-pub(crate) mod moves;
-pub(crate) mod polar;
 pub(crate) mod spline;
 pub(crate) mod turns;
-pub(crate) mod wrong;

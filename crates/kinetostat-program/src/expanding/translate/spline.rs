@@ -4,8 +4,8 @@
 //! The curve is a B-spline with knots one apart, closed at both ends, and weights. Source: LinuxCNC, `docs/src/gcode/g-code.adoc`,
 //! G5 to G5.3; L. Piegl and W. Tiller, The NURBS Book, algorithms A2.1 and A4.1.
 
+use crate::expanding::Wrong;
 use crate::expanding::translate::block::MotionBlock;
-use crate::expanding::translate::wrong::Wrong;
 
 /// Chords for each control point.
 const CHORDS: usize = 15;

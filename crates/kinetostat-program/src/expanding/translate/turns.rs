@@ -5,10 +5,9 @@
 
 use std::f64::consts::TAU;
 
-use crate::expanding::number::number;
-use crate::expanding::translate::block::MotionBlock;
-use crate::expanding::translate::moves::Place;
-use crate::expanding::translate::wrong::Wrong;
+use crate::expanding::Wrong;
+use crate::expanding::translate::block::{MotionBlock, Place};
+use crate::number::number;
 use crate::reading::interpreting::interpreter::Interpreter;
 
 /// Maximum turns of one block.

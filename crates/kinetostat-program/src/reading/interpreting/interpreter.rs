@@ -4,17 +4,14 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 
-use crate::path::moves::{Change, CoordinateWords, Event, Move, Warning};
-use crate::path::pause::Pause;
-use crate::path::position_offset::PositionOffset;
+use crate::path::moves::{Change, CoordinateWords, Event, Move, Pause, PositionOffset, Warning};
 use crate::reading::block::Block;
 use crate::reading::extra::RotaryOrigins;
 use crate::reading::modes::Modes;
 use crate::reading::options::{ReadOptions, ToolCentrePoint};
-use crate::reading::places::Places;
+use crate::reading::places::{Places, Shifts};
 use crate::reading::repeated::Repeated;
 use crate::reading::rotary::RotaryWords;
-use crate::reading::shifts::Shifts;
 use crate::reading::spindle::SpindleWords;
 use crate::reading::tools::ToolWords;
 

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::reading::moment::is_written_last;
-use crate::text::line::{Line, Word};
 use crate::text::program::Program;
+use crate::text::{Line, Word};
 
 /// Letters of the coordinates.
 pub(crate) const AXES: [u8; 3] = *b"XYZ";

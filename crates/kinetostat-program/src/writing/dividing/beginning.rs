@@ -3,7 +3,7 @@
 use nalgebra::Vector6;
 
 use crate::error::WriteError;
-use crate::field::request::Course;
+use crate::field::Course;
 use crate::path::curve::Curve;
 use crate::path::moves::Move;
 use crate::writing::directed_moves::DirectedMove;

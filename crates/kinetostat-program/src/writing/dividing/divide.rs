@@ -3,16 +3,14 @@
 use nalgebra::Vector6;
 
 use crate::error::WriteError;
-use crate::field::request::{CorrectionField, Monitor, Request};
+use crate::field::{CorrectionField, Monitor, Request};
 use crate::path::curve::Curve;
 use crate::path::moves::Path;
-use crate::writing::corner::follow_turns;
 use crate::writing::directed_moves::{DirectedMove, directed_moves, refuse_other_angles};
 use crate::writing::dividing::beginning::{Fitted, first_round};
 use crate::writing::dividing::stretch::{Decision, Place, Stretch};
-use crate::writing::jump::Jump;
 use crate::writing::merge::{Accepted, merge};
-use crate::writing::node::{Node, is_divided};
+use crate::writing::node::{Jump, Node, follow_turns, is_divided};
 use crate::writing::options::WriteOptions;
 use crate::writing::queries::FieldQueries;
 

@@ -2,9 +2,8 @@
 
 use nalgebra::Vector6;
 
-use crate::field::request::Course;
-use crate::irregular::irregular;
-use crate::number::larger;
+use crate::field::Course;
+use crate::number::{irregular, larger};
 use crate::path::curve::Curve;
 use crate::path::moves::{Move, Path};
 use crate::writing::departure::{Values, departure, parabola, polynomial, remainder};

@@ -7,10 +7,9 @@ use nalgebra::Vector3;
 use crate::number::{larger, smaller};
 use crate::path::curve::{Arc, Curve};
 use crate::writing::corrected_curve::CorrectedCurve;
-use crate::writing::fitting::circle::Circle;
+use crate::writing::fitting::Circle;
 use crate::writing::options::WriteOptions;
-use crate::writing::output_state::{FittedArc, FittedCircle};
-use crate::writing::written_arc::slipped;
+use crate::writing::output_state::{FittedArc, FittedCircle, slipped};
 
 /// Form of the arcs of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
