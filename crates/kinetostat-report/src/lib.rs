@@ -36,7 +36,6 @@
 
 mod chart;
 mod drawing;
-mod literal;
 mod number;
 mod paper;
 mod run;
@@ -112,7 +111,7 @@ pub fn html_of_run_and_turns(
 /// ```
 #[must_use]
 pub fn engagement_svg(cutting: &CuttingResult, map: Option<&Section>, title: &str) -> String {
-    run::engagement::draw(cutting, map, title)
+    run::cutting::engagement(cutting, map, title)
 }
 
 /// The turns of a round tool about its own axis that were chosen along a path, as one picture, 760 by 560: every turn of the band over the

@@ -2,7 +2,7 @@
 
 use kinetostat_machining::number::{larger, smaller};
 
-use crate::chart::title::title_lines;
+use crate::chart::label::title_lines;
 use crate::svg::{Anchor, Svg};
 use crate::text;
 

@@ -5,12 +5,8 @@
 pub(crate) mod area;
 pub(crate) mod axis;
 pub(crate) mod bars;
-pub(crate) mod dashes;
 pub(crate) mod label;
 pub(crate) mod outline;
 pub(crate) mod panel;
 pub(crate) mod plot;
-pub(crate) mod point_names;
 pub(crate) mod section;
-pub(crate) mod stack;
-pub(crate) mod title;

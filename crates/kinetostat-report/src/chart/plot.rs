@@ -7,12 +7,9 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use crate::chart::axis::{Scale, Span, Tick};
-use crate::chart::dashes::Drawn;
-use crate::chart::label::{Frame, TEXT_SIZE};
-use crate::chart::outline::path_data;
+use crate::chart::label::{Frame, Names, TEXT_SIZE, title_lines};
+use crate::chart::outline::{Drawn, path_data};
 use crate::chart::panel::legend;
-use crate::chart::point_names::Names;
-use crate::chart::title::title_lines;
 use crate::svg::{Anchor, Pixel, Svg, pixel};
 use crate::{number, text};
 

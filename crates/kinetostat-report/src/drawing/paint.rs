@@ -4,14 +4,12 @@ use std::collections::BTreeSet;
 
 use nalgebra::Vector3;
 
-use crate::chart::label::{Frame, TEXT_SIZE};
-use crate::chart::point_names::{Beside, Names};
-use crate::chart::title::title_lines;
+use crate::chart::label::{Beside, Frame, Names, TEXT_SIZE, title_lines};
 use crate::drawing::order::{Thing, painting_order, rim};
 use crate::drawing::parts::{Bar, BarKind, Blob, BlobKind, Scene};
 use crate::drawing::symbol::{self, Point, flat};
 use crate::drawing::view::Camera;
-use crate::drawing::{Drawing, Magnified, Moved, applied};
+use crate::drawing::{Drawing, Magnified, Moved};
 use crate::svg::{Anchor, Svg};
 use crate::text;
 
@@ -152,7 +150,7 @@ fn paint(d: &Drawing<'_>) -> (String, f64) {
     }
     if let Some(wrench) = &d.applied {
         let tool = flat(&paper.at(&scene.tool.translation.vector));
-        applied::draw(&mut svg, &mut names, tool, wrench, |v| paper.direction(v));
+        symbol::wrench_arrows(&mut svg, &mut names, tool, wrench, |v| paper.direction(v));
     }
     for axes in &axes {
         axes.name(&mut svg, &mut names, &paper);

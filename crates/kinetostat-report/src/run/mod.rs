@@ -4,9 +4,7 @@
 
 pub(crate) mod along;
 pub(crate) mod chatter;
-pub(crate) mod cut_table;
 pub(crate) mod cutting;
-pub(crate) mod engagement;
 pub(crate) mod facts;
 pub(crate) mod force_band;
 pub(crate) mod joints;
