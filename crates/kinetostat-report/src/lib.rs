@@ -11,7 +11,7 @@
 //!   the deviation
 //!   magnified; `page` fills the template (minijinja with automatic escaping).
 //! - `chart`: `plot` draws curves over any two quantities, `section` a quantity over a plane, `panel` values over the
-//!   length of a path. They share `axis`, `outline`, `label` and `title`.
+//!   length of a path. They share axes, `outline` and `label`.
 //! - `drawing`: a machine in space, as lines on paper.
 //! - `vibration`: stability lobes and receptances.
 //! - `turns`: the free turn of a round tool along a path, over all turns that were tried.
@@ -47,8 +47,8 @@ mod vibration;
 use kinetostat_chatter::LobeDiagram;
 use kinetostat_machining::{ChatterResult, CuttingResult, Run, RunResult, TurnChoice};
 
+use run::Shown;
 use run::page;
-use run::shown::Shown;
 
 pub use chart::bars::{Bar, Bars};
 pub use chart::plot::{Plot, PlotLine, PlotMark};

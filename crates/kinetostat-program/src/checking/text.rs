@@ -10,7 +10,7 @@ use crate::path::moves::{Feed, FeedMode, Move};
 use crate::path::tool_turn::StatedBy;
 use crate::text::program::Program;
 use crate::text::{Line, Word};
-use crate::writing::blocks::block_text::{is_after_motion, motion_word};
+use crate::writing::blocks::{is_after_motion, motion_word};
 use crate::writing::written::{Piece, lines_above};
 
 impl Verifier<'_> {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::error::{ProgramError, ProgramErrorKind};
-use crate::expanding::run::runner::Runner;
+use crate::expanding::run::Runner;
 use crate::expanding::run::source::Subprograms;
 use crate::expanding::source::{Piece, Statement, Structure};
 use crate::expanding::{ExpandOptions, Expanded};

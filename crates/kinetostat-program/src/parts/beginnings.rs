@@ -5,7 +5,7 @@ use std::hash::{DefaultHasher, Hasher};
 use std::sync::Arc;
 
 use crate::parts::PartLength;
-use crate::reading::interpreting::interpreter::InterpreterState;
+use crate::reading::interpreting::InterpreterState;
 use crate::text::program::ReaderState;
 
 /// Modal state of reader and interpreter before a line.

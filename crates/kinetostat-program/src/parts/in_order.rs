@@ -12,7 +12,7 @@ use crate::machine_program::MachineProgram;
 use crate::parts::survey::{Lines, PartError, Survey};
 use crate::parts::windows::Part;
 use crate::path::moves::Path;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::options::ReadOptions;
 use crate::text::first_line;
 use crate::text::program::{PartOfText, Program, Reader, ReaderState};

@@ -9,11 +9,11 @@ use crate::parts::PartLength;
 use crate::parts::beginnings::{Beginning, Beginnings, ByKnown, NextLine, covers, index_of};
 use crate::path::curve::Curve;
 use crate::path::moves::{Move, MoveKind, Warning};
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::options::ReadOptions;
 use crate::text::first_line;
 use crate::text::program::{MAX_READ_LINE_BYTES, Reader, ReaderState};
-use crate::writing::blocks::block_text::motion_word;
+use crate::writing::blocks::motion_word;
 
 /// Lines that are in memory at a time.
 const BLOCK: usize = 4096;

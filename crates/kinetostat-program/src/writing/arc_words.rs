@@ -10,8 +10,8 @@ use nalgebra::Vector3;
 use crate::error::WriteError;
 use crate::number::{fixed, larger};
 use crate::path::curve::Curve;
-use crate::writing::blocks::block_text::{BlockText, Place};
 use crate::writing::blocks::words::AxisWords;
+use crate::writing::blocks::{BlockText, Place};
 use crate::writing::fitting::stretch::ArcForm;
 use crate::writing::output_state::{FittedArc, OutputMove, OutputState, WrittenArc};
 

@@ -3,9 +3,9 @@
 use kinetostat_machining::{CutPlace, Envelope, PointKind, PointResult, Quantity};
 
 use crate::chart::area::area_data;
-use crate::chart::axis::{Scale, Span, Tick};
 use crate::chart::label::{Frame, Labels, TEXT_SIZE, TITLE_SIZE, title_lines};
 use crate::chart::outline::{path_data, per_column};
+use crate::chart::{Scale, Span, Tick};
 use crate::svg::{Anchor, Pixel, Svg, pixel};
 use crate::{number, text};
 

@@ -6,10 +6,10 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use crate::chart::axis::{Scale, Span, Tick};
 use crate::chart::label::{Frame, Names, TEXT_SIZE, title_lines};
 use crate::chart::outline::{Drawn, path_data};
 use crate::chart::panel::legend;
+use crate::chart::{Scale, Span, Tick};
 use crate::svg::{Anchor, Pixel, Svg, pixel};
 use crate::{number, text};
 

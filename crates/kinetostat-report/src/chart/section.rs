@@ -4,11 +4,11 @@
 
 use std::fmt::Write as _;
 
-use crate::chart::axis::{Scale, Span};
 use crate::chart::label::{Frame, Names, TEXT_SIZE, title_lines};
 use crate::chart::outline::{first_time, path_data};
 use crate::chart::panel::legend;
 use crate::chart::plot::{PlotLine, PlotMark};
+use crate::chart::{Scale, Span};
 use crate::svg::{Anchor, Svg, pixel};
 use crate::{number, text};
 

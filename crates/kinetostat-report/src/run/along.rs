@@ -3,12 +3,11 @@
 use kinetostat_machining::number::larger;
 use kinetostat_machining::{PointResult, Quantity};
 
-use crate::chart::axis::Span;
+use crate::chart::Span;
 use crate::chart::label::Frame;
 use crate::chart::panel::{Along, Limit, Mark, Panel, Series, Sheet, legend};
 use crate::number::{self, MISSING, Rounding, norm};
-use crate::run::shown::Shown;
-use crate::run::{force_band, uncertainty};
+use crate::run::{Shown, force_band, uncertainty};
 use crate::svg::Svg;
 use crate::text;
 

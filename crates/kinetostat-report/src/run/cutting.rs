@@ -4,13 +4,13 @@
 use kinetostat_machining::{CutPlace, CuttingResult};
 use minijinja::{Value, context};
 
-use crate::chart::axis::Span;
+use crate::chart::Span;
 use crate::chart::panel::{Along, Area, Limit, Mark, Panel, Series, Sheet};
 use crate::chart::plot::Plot;
 use crate::chart::section::Section;
 use crate::number::{self, MISSING, Rounding};
+use crate::run::Shown;
 use crate::run::along::stack;
-use crate::run::shown::Shown;
 use crate::svg::{Anchor, Svg};
 
 /// A limit so many times above the curve is said, not drawn: it would press the curve flat.

@@ -6,8 +6,7 @@ use kinetostat_machining::{
 use minijinja::{Value, context};
 
 use crate::number::{self, MISSING, Rounding, norm};
-use crate::run::meaning;
-use crate::run::shown::Shown;
+use crate::run::{Shown, meaning};
 use crate::text::{self, or_unknown};
 
 /// A key figure: what, how much, and a line that helps to read it.

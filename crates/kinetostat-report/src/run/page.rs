@@ -6,8 +6,7 @@ use minijinja::{Environment, Value, context};
 use crate::chart::panel::Sheet;
 use crate::chart::section::Section;
 use crate::number::{self, MISSING, typeset};
-use crate::run::shown::Shown;
-use crate::run::{along, chatter, cutting, facts, joints, meaning, plan};
+use crate::run::{Shown, along, chatter, cutting, facts, joints, meaning, plan};
 use crate::{text, turns};
 
 /// The name ends in `.html`, which switches automatic escaping on.

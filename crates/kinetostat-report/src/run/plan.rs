@@ -2,12 +2,12 @@
 
 use kinetostat_machining::{PointKind, PointResult};
 
-use crate::chart::axis::{Scale, Span};
 use crate::chart::label::{Frame, Labels, TEXT_SIZE};
 use crate::chart::outline::{first_time, path_data};
 use crate::chart::panel::{Sheet, legend};
+use crate::chart::{Scale, Span};
 use crate::number::{self, Rounding, norm};
-use crate::run::shown::Shown;
+use crate::run::Shown;
 use crate::svg::{Anchor, Pixel, Svg};
 use crate::text;
 

@@ -4,18 +4,18 @@ use std::borrow::Cow;
 
 use nalgebra::Vector3;
 
-use crate::expanding::coordinates::map::{Block, Map, Switch};
+use crate::expanding::coordinates::{Block, Map, Switch};
 use crate::expanding::flat::Flat;
 use crate::expanding::radius::contour::{Programmed, ProgrammedShape};
 use crate::expanding::radius::geometry::{Axes, in_plane};
 use crate::expanding::radius::pending::Shape;
 use crate::expanding::radius::stage::Radius;
 use crate::expanding::radius::words::{Motion, divided, no_motion, other_side};
-use crate::expanding::translate::block::{MotionBlock, Polar};
+use crate::expanding::translate::{MotionBlock, Polar};
 use crate::expanding::{Dialect, Origin, Trouble, Wrong};
 use crate::path::curve::Curve;
 use crate::path::moves::{Move, MoveKind};
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::options::Units;
 use crate::text::lex::{Spanned, Token, tokens_of};
 

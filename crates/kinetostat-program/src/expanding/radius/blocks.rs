@@ -5,7 +5,7 @@ use crate::expanding::radius::contour::{Contour, Programmed};
 use crate::expanding::radius::geometry::in_plane;
 use crate::expanding::radius::pending::{Shape, write};
 use crate::expanding::radius::words::{Motion, Words, no_motion};
-use crate::expanding::translate::block::{MotionBlock, Polar};
+use crate::expanding::translate::{MotionBlock, Polar};
 use crate::expanding::{Origin, Trouble, Wrong};
 use crate::number::number;
 use crate::reading::options::Units;

@@ -6,7 +6,7 @@ use crate::expanding::radius::contour::Contour;
 use crate::expanding::radius::geometry::{Point, Side};
 use crate::expanding::radius::words::{Switch, Words};
 use crate::expanding::{Dialect, Wrong};
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::options::Units;
 
 /// A number this near to a whole one is one (LinuxCNC).

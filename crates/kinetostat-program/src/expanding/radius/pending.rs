@@ -10,7 +10,7 @@ use crate::expanding::flat::Flat;
 use crate::expanding::radius::geometry::{Point, Sense, sweep};
 use crate::expanding::{Origin, Trouble, Wrong};
 use crate::number::number;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::options::Units;
 
 /// Minimum remaining length of a straight move, in mm.

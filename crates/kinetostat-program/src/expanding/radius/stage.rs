@@ -12,7 +12,7 @@ use crate::expanding::radius::contour::Contour;
 use crate::expanding::radius::cutter::{InSpindle, begin};
 use crate::expanding::radius::words::{Switch, Words, asks_behind, words};
 use crate::expanding::{Dialect, ExpandOptions, Origin, Trouble, Wrong};
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::options::Units;
 
 /// State of the compensation.

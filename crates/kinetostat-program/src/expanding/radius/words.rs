@@ -4,11 +4,11 @@ use crate::error::ProgramError;
 use crate::expanding::flat::Flat;
 use crate::expanding::radius::contour::{Dress, arc_behind};
 use crate::expanding::radius::geometry::{Axes, Side};
-use crate::expanding::translate::block::{MotionBlock, Polar};
+use crate::expanding::translate::{MotionBlock, Polar};
 use crate::expanding::{Origin, Wrong};
 use crate::number::number;
 use crate::path::moves::Move;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::text::lex::{Spanned, Token, tokens_of};
 use crate::text::tenths;
 

@@ -4,8 +4,8 @@ use crate::error::ProgramError;
 use crate::expanding::Dialect;
 use crate::expanding::expression::Expression;
 use crate::expanding::run::frame::{Frame, LOCAL, Label, Locals, Opened};
-use crate::expanding::run::runner::{Next, Runner};
 use crate::expanding::run::source::Source;
+use crate::expanding::run::{Next, Runner};
 use crate::text::lex::{Spanned, Token, tokens_of};
 
 /// Keyword that closes a subprogram.

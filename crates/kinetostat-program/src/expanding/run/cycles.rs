@@ -2,11 +2,11 @@
 
 use crate::error::ProgramError;
 use crate::expanding::Dialect;
-use crate::expanding::run::runner::{Rigid, Runner};
-use crate::expanding::translate::block::{MotionBlock, Place};
+use crate::expanding::run::{Rigid, Runner};
 use crate::expanding::translate::cycle::cycle;
 use crate::expanding::translate::spline::{Spline, is_spline, spline};
 use crate::expanding::translate::turns::turns;
+use crate::expanding::translate::{MotionBlock, Place};
 use crate::number::number;
 use crate::path::moves::FeedMode;
 use crate::path::spindle::{SpeedMode, SpindleRotation};

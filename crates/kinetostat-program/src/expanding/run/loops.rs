@@ -3,8 +3,8 @@
 use crate::error::ProgramError;
 use crate::expanding::Dialect;
 use crate::expanding::expression::Expression;
+use crate::expanding::run::Runner;
 use crate::expanding::run::frame::{Label, Loop, LoopKind};
-use crate::expanding::run::runner::Runner;
 use crate::expanding::run::source::constant;
 use crate::expanding::source::{Statement, Structure};
 

@@ -6,8 +6,8 @@
 use crate::error::ProgramError;
 use crate::expanding::Dialect;
 use crate::expanding::expression::Parameter;
+use crate::expanding::run::Runner;
 use crate::expanding::run::frame::{Frame, Locals, Opened};
-use crate::expanding::run::runner::Runner;
 use crate::text::lex::{Spanned, Token, tokens_of};
 
 /// Maximum repeats of a call.

@@ -6,7 +6,7 @@
 
 use crate::path::moves::FeedMode;
 use crate::path::spindle::SpindleRotation;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::options::Units;
 use crate::text::lex::{Spanned, Token};
 use crate::text::tenths;

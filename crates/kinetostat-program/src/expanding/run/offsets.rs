@@ -6,8 +6,8 @@
 
 use crate::error::ProgramError;
 use crate::expanding::Dialect;
-use crate::expanding::run::runner::Runner;
-use crate::expanding::translate::block::G_WITHOUT_WORDS;
+use crate::expanding::run::Runner;
+use crate::expanding::translate::G_WITHOUT_WORDS;
 use crate::expanding::translate::cycle::is_cycle;
 use crate::number::number;
 use crate::reading::options::Units;

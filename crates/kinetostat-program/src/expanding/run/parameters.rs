@@ -6,7 +6,7 @@ use crate::expanding::Dialect;
 use crate::expanding::expression::Parameter;
 use crate::expanding::expression::evaluate::Parameters;
 use crate::expanding::run::frame::Frame;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 
 /// Numbers below this are parameters (LinuxCNC, `RS274NGC_MAX_PARAMETERS`).
 const NUMBERS: u32 = 5602;

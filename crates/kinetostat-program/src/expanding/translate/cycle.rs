@@ -1,10 +1,10 @@
 //! Canned cycles: what of a cycle holds for the blocks that follow, and the places of its holes.
 
-use crate::expanding::translate::block::{MotionBlock, Place};
 use crate::expanding::translate::holes::{Hole, Spindle};
+use crate::expanding::translate::{MotionBlock, Place};
 use crate::expanding::{Dialect, Wrong};
 use crate::number::number;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 
 /// Maximum repeats of a cycle.
 const MOST_REPEATS: f64 = 1e5;

@@ -3,7 +3,7 @@
 use crate::expanding::{Dialect, Wrong};
 use crate::number::number;
 use crate::path::spindle::SpindleRotation;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 
 /// Pecks of one hole.
 const MOST_PECKS: f64 = 1e5;

@@ -5,7 +5,7 @@
 //! G5 to G5.3; L. Piegl and W. Tiller, The NURBS Book, algorithms A2.1 and A4.1.
 
 use crate::expanding::Wrong;
-use crate::expanding::translate::block::MotionBlock;
+use crate::expanding::translate::MotionBlock;
 
 /// Chords for each control point.
 const CHORDS: usize = 15;

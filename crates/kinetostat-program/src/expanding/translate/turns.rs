@@ -6,9 +6,9 @@
 use std::f64::consts::TAU;
 
 use crate::expanding::Wrong;
-use crate::expanding::translate::block::{MotionBlock, Place};
+use crate::expanding::translate::{MotionBlock, Place};
 use crate::number::number;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 
 /// Maximum turns of one block.
 const MOST_TURNS: f64 = 1e5;

@@ -5,7 +5,7 @@ use crate::path::curve::Curve;
 use crate::path::moves::{Knowledge, Motion, Move, MoveKind};
 use crate::reading::block::Block;
 use crate::reading::dialect::{Treatment, lookup};
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::text::program::Program;
 use crate::text::syntax::{FLATTEN, of_subprogram};
 

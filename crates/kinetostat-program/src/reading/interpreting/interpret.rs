@@ -12,7 +12,7 @@ use crate::reading::beside::{
 use crate::reading::block::Block;
 use crate::reading::directions::states_direction;
 use crate::reading::extra::ExtraAxes;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::machine::machine_place;
 use crate::reading::options::{BlockDelete, ReadOptions};
 use crate::text::LineKind;

@@ -9,7 +9,7 @@ use crate::reading::arc::{self, ArcFrame};
 use crate::reading::beside::{COORDINATES, check_codes_beside_motion};
 use crate::reading::block::Block;
 use crate::reading::directions::with_circle;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::machine::MachinePlace;
 use crate::reading::options::Units;
 use crate::reading::places::Cause;

@@ -7,7 +7,7 @@ use crate::path::moves::{Change, Event, OffsetChange};
 use crate::reading::beside::COORDINATES;
 use crate::reading::block::Block;
 use crate::reading::extra::ExtraAxes;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::modes::Modes;
 use crate::text::Word;
 

@@ -6,7 +6,7 @@ use crate::number;
 use crate::path::curve::NO_LENGTH_MM;
 use crate::path::moves::{Feed, FeedMode, Knowledge, Motion, Move};
 use crate::text::Word;
-use crate::writing::blocks::block_text::{AXES, BlockText, Edits, Place, number_span};
+use crate::writing::blocks::{AXES, BlockText, Edits, Place, number_span};
 use crate::writing::output_state::{OutputMove, OutputState, motion_of};
 
 /// Places nearer than this are the same, up to the arithmetic, in mm.

@@ -7,7 +7,7 @@ use crate::field::Course;
 use crate::path::curve::Curve;
 use crate::path::moves::Move;
 use crate::writing::directed_moves::DirectedMove;
-use crate::writing::dividing::stretch::Stretch;
+use crate::writing::dividing::Stretch;
 use crate::writing::node::{Node, is_corrected_at_end, is_divided, taken_up};
 use crate::writing::options::WriteOptions;
 use crate::writing::queries::FieldQueries;

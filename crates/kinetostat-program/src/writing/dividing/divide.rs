@@ -8,7 +8,7 @@ use crate::path::curve::Curve;
 use crate::path::moves::Path;
 use crate::writing::directed_moves::{DirectedMove, directed_moves, refuse_other_angles};
 use crate::writing::dividing::beginning::{Fitted, first_round};
-use crate::writing::dividing::stretch::{Decision, Place, Stretch};
+use crate::writing::dividing::{Decision, Place, Stretch};
 use crate::writing::merge::{Accepted, merge};
 use crate::writing::node::{Jump, Node, follow_turns, is_divided};
 use crate::writing::options::WriteOptions;

@@ -11,9 +11,8 @@ use crate::paper::content::of::{MOST, Of, more};
 use crate::paper::question::Paper;
 use crate::paper::words::table::fill;
 use crate::paper::words::{left as in_words, statement, words};
-use crate::run::facts;
 use crate::run::meaning::assessment;
-use crate::run::shown::Shown;
+use crate::run::{Shown, facts};
 use crate::text::{clean, shorten};
 
 /// A paper of a run.

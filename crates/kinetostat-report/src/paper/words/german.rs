@@ -8,11 +8,11 @@ use crate::paper::words::shared::{
     corners, length, missed_place, stated_change, uncertain, uncertain_numbers,
 };
 use crate::paper::words::table::Words;
+use crate::run::Shown;
 use crate::run::facts::Left;
 use crate::run::meaning::{
     Statement, after_and_allowed, assumed, missed_features, worst_and_allowed,
 };
-use crate::run::shown::Shown;
 
 pub(super) const WORDS: Words = Words {
     figures: FigureWords {

@@ -9,9 +9,9 @@ pub(crate) mod table;
 
 use crate::paper::language::Language;
 use crate::paper::words::table::Words;
+use crate::run::Shown;
 use crate::run::facts::Left;
 use crate::run::meaning::Statement;
-use crate::run::shown::Shown;
 
 /// The words of a language.
 pub(crate) fn words(language: Language) -> &'static Words {
