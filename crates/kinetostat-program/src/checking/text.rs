@@ -53,12 +53,7 @@ impl Verifier<'_> {
             } else {
                 group.extend(output.next());
             }
-            self.check_group(
-                number,
-                line,
-                motion.map(|motion| (motion, shapes.as_slice())),
-                &group,
-            )?;
+            self.check_group(number, line, motion, &shapes, &group)?;
             if !self.input.words(line).is_empty() {
                 blocks += group.len();
             }
@@ -133,7 +128,8 @@ impl Verifier<'_> {
         &mut self,
         number: usize,
         line: &Line,
-        motion: Option<(&Move, &[Shape])>,
+        motion: Option<&Move>,
+        shapes: &[Shape],
         group: &[(usize, &Line)],
     ) -> Result<(), WriteError> {
         let Some(((first_index, first), further)) = group.split_first() else {
@@ -157,8 +153,8 @@ impl Verifier<'_> {
         }
         let written = self.output.content(first);
         let original = self.input.content(line);
-        let corrected = motion.filter(|(motion, _)| !motion.words.is_to_machine());
-        let Some((motion, shapes)) = corrected else {
+        let corrected = motion.filter(|motion| !motion.words.is_to_machine());
+        let Some(motion) = corrected else {
             if self.output.bytes()[written] != self.input.bytes()[original] {
                 return broken("a line without a coordinate has changed");
             }

@@ -12,9 +12,9 @@ use crate::svg::{Anchor, Pixel, Svg};
 use crate::text;
 
 /// Axes of a view: indices into positions and their names.
-type View = (usize, usize);
-const ABOVE: View = (0, 1);
-const SIDE: View = (0, 2);
+type View = [usize; 2];
+const ABOVE: View = [0, 1];
+const SIDE: View = [0, 2];
 const NAMES: [&str; 3] = ["X, mm", "Y, mm", "Z, mm"];
 
 /// Maximum number of whiskers from the path to the magnified place of the tool.
@@ -106,7 +106,7 @@ impl Extent {
                 .filter_map(|p| Some(displaced(p, magnification?)?[axis]));
             Span::of(path.chain(moved))
         };
-        let (mut across, mut up) = (span(view.0)?, span(view.1)?);
+        let (mut across, mut up) = (span(view[0])?, span(view[1])?);
         let size = across.length().max(up.length());
         let room = if size > 0.0 { 0.05 * size } else { 1.0 };
         // More room at the sides: labels of the worst points stand there.
@@ -275,7 +275,7 @@ fn draw(
         svg.line("grid", [frame.x, at], [frame.right(), at]);
         svg.text("tick", [frame.x - 7.0, at + 4.2], Anchor::End, &tick.label);
     }
-    let (first, second) = extent.view;
+    let [first, second] = extent.view;
     svg.text("title", [frame.x, frame.y - 10.0], Anchor::Start, title);
     svg.text(
         "name",
