@@ -23,6 +23,14 @@ use crate::text::program::Program;
 /// Reason and remedy.
 pub(crate) type Wrong = (String, &'static str);
 
+/// Refuses with a reason and a remedy.
+pub(crate) fn wrong<T, E: From<Wrong>>(
+    reason: impl Into<String>,
+    remedy: &'static str,
+) -> Result<T, E> {
+    Err((reason.into(), remedy).into())
+}
+
 /// Reason for which a block is refused.
 pub(crate) enum Trouble {
     /// Reading a block found it.

@@ -6,6 +6,13 @@ use crate::text;
 /// Size of text in drawings, in pixels; the style sheet says the same.
 pub(crate) const TEXT_SIZE: f64 = 12.5;
 
+/// Width of the widest of some labels, pixels.
+pub(crate) fn widest<'a>(labels: impl Iterator<Item = &'a str>) -> f64 {
+    labels
+        .map(|label| text::width(label, TEXT_SIZE))
+        .fold(0.0, f64::max)
+}
+
 /// A rectangle on the drawing.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {

@@ -3,7 +3,7 @@
 use kinetostat_machining::{CutPlace, Envelope, PointKind, PointResult, Quantity};
 
 use crate::chart::area::area_data;
-use crate::chart::label::{Frame, Labels, TEXT_SIZE, TITLE_SIZE, title_lines};
+use crate::chart::label::{Frame, Labels, TEXT_SIZE, TITLE_SIZE, title_lines, widest};
 use crate::chart::outline::{path_data, per_column};
 use crate::chart::{Scale, Span, Tick};
 use crate::svg::{Anchor, Pixel, Svg, pixel};
@@ -241,11 +241,8 @@ impl Panel {
 
     /// Room left of the frame for the label and the ticks of the vertical axis.
     pub(crate) fn gutter(&self, height: f64) -> f64 {
-        let ticks = self.ticks(height).into_iter();
-        let widest = ticks
-            .map(|tick| text::width(&tick.label, TEXT_SIZE))
-            .fold(0.0, f64::max);
-        widest + 32.0
+        let ticks = self.ticks(height);
+        widest(ticks.iter().map(|tick| tick.label.as_str())) + 32.0
     }
 
     /// Height of the title beyond its first line, where this much width is left for it.

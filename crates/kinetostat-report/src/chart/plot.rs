@@ -6,12 +6,12 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use crate::chart::label::{Frame, Names, TEXT_SIZE, title_lines};
+use crate::chart::label::{Frame, Names, title_lines, widest};
 use crate::chart::outline::{Drawn, path_data};
 use crate::chart::panel::legend;
 use crate::chart::{Scale, Span, Tick};
+use crate::number;
 use crate::svg::{Anchor, Pixel, Svg, pixel};
-use crate::{number, text};
 
 const SIZE: [f64; 2] = [760.0, 480.0];
 
@@ -386,11 +386,7 @@ fn polygons(areas: &[Vec<(f64, f64)>], at: impl Fn(&(f64, f64)) -> Option<Pixel>
 
 /// Room left of a frame for the numbers and the name of its vertical axis.
 fn gutter(ticks: &[Tick]) -> f64 {
-    ticks
-        .iter()
-        .map(|tick| text::width(&tick.label, TEXT_SIZE))
-        .fold(0.0, f64::max)
-        + 46.0
+    widest(ticks.iter().map(|tick| tick.label.as_str())) + 46.0
 }
 
 /// A little room at both ends, so that what runs along the axis can be seen.

@@ -4,7 +4,7 @@
 
 use std::fmt::Write as _;
 
-use crate::chart::label::{Frame, Names, TEXT_SIZE, title_lines};
+use crate::chart::label::{Frame, Names, TEXT_SIZE, title_lines, widest};
 use crate::chart::outline::{first_time, path_data};
 use crate::chart::panel::legend;
 use crate::chart::plot::{PlotLine, PlotMark};
@@ -179,13 +179,8 @@ impl Section {
         let bands = Bands::of(values, self.scale_from);
         top += self.reasons(&mut svg, top);
         let y_ticks = y_span.ticks(7);
-        let widest = |labels: &mut dyn Iterator<Item = &str>| {
-            labels
-                .map(|l| text::width(l, TEXT_SIZE))
-                .fold(0.0, f64::max)
-        };
-        let left = widest(&mut y_ticks.iter().map(|t| t.label.as_str())) + 46.0;
-        let scale = widest(&mut bands.labels.iter().map(String::as_str)) + BAR + 54.0;
+        let left = widest(y_ticks.iter().map(|tick| tick.label.as_str())) + 46.0;
+        let scale = widest(bands.labels.iter().map(String::as_str)) + BAR + 54.0;
         let room = Frame {
             x: left,
             y: top,
@@ -431,11 +426,8 @@ impl Bands {
             svg.line("axis", [left + BAR, at], [left + BAR + 4.0, at]);
             svg.text("tick", [left + BAR + 7.0, at + 4.2], Anchor::Start, text);
         }
-        let widest = self.labels.iter().map(|l| text::width(l, TEXT_SIZE));
-        let beside = [
-            left + BAR + 26.0 + widest.fold(0.0, f64::max),
-            room.y + 0.5 * room.height,
-        ];
+        let widest = widest(self.labels.iter().map(String::as_str));
+        let beside = [left + BAR + 26.0 + widest, room.y + 0.5 * room.height];
         svg.text_upwards("name", beside, label);
     }
 }

@@ -1,7 +1,7 @@
 //! Figures along the path: errors, forces and corrections of actuators, stiffness and load factor; panels under each other.
 
+use kinetostat_machining::Quantity;
 use kinetostat_machining::number::larger;
-use kinetostat_machining::{PointResult, Quantity};
 
 use crate::chart::Span;
 use crate::chart::label::Frame;
@@ -151,7 +151,7 @@ pub(crate) fn actuators(result: &Shown<'_>, sheet: Sheet) -> String {
 }
 
 fn before_panel(result: &Shown<'_>, along: &Along, sheet: Sheet) -> Option<Panel> {
-    let worst = number::largest(cutting(result.points).map(|p| norm(&p.error_before_mm)))?;
+    let worst = number::largest(result.cutting_points().map(|p| norm(&p.error_before_mm)))?;
     let bands = [
         force_band::largest_without_compensation(result),
         uncertainty::largest_without_compensation(result),
@@ -186,7 +186,8 @@ fn before_panel(result: &Shown<'_>, along: &Along, sheet: Sheet) -> Option<Panel
 }
 
 fn after_panel(result: &Shown<'_>, along: &Along) -> Option<Panel> {
-    let (place, worst) = cutting(result.points)
+    let (place, worst) = result
+        .cutting_points()
         .filter_map(|p| Some((p, number::drawable(norm(&p.error_after_mm))?)))
         .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
     let (unit, factor) = number::length_unit(worst);
@@ -314,13 +315,6 @@ fn share_spans(panels: &mut [Panel]) {
         }
         panel.span = panel.span.padded(0.1, 0.1);
     }
-}
-
-/// True for points that are drawn in plots along the path.
-fn cutting(points: &[PointResult]) -> impl Iterator<Item = &PointResult> {
-    points
-        .iter()
-        .filter(|p| p.kind != kinetostat_machining::PointKind::Rapid)
 }
 
 fn span_of(values: &[Option<(f64, f64)>]) -> Option<Span> {

@@ -15,7 +15,9 @@ pub(crate) mod uncertainty;
 
 use std::ops::Deref;
 
-use kinetostat_machining::{Envelope, Figures, PointResult, Quantity, Run, RunResult, TurnChoice};
+use kinetostat_machining::{
+    Envelope, Figures, PointKind, PointResult, Quantity, Run, RunResult, TurnChoice,
+};
 
 use crate::chart::panel::Along;
 use crate::number::typeset;
@@ -40,6 +42,12 @@ impl Deref for Shown<'_> {
 }
 
 impl<'a> Shown<'a> {
+    /// Points that are drawn in plots along the path: all but those of rapids.
+    pub(crate) fn cutting_points(&self) -> impl Iterator<Item = &PointResult> {
+        let points = self.points.iter();
+        points.filter(|p| p.kind != PointKind::Rapid)
+    }
+
     pub(crate) fn of_result(result: &'a RunResult) -> Self {
         Self {
             result,

@@ -2,14 +2,13 @@
 
 use kinetostat_machining::{PointKind, PointResult};
 
-use crate::chart::label::{Frame, Labels, TEXT_SIZE};
+use crate::chart::label::{Frame, Labels, widest};
 use crate::chart::outline::{first_time, path_data};
 use crate::chart::panel::{Sheet, legend};
 use crate::chart::{Scale, Span};
 use crate::number::{self, Rounding, norm};
 use crate::run::Shown;
 use crate::svg::{Anchor, Pixel, Svg};
-use crate::text;
 
 /// Axes of a view: indices into positions and their names.
 type View = [usize; 2];
@@ -31,7 +30,7 @@ pub(crate) fn magnification(result: &Shown<'_>) -> Option<f64> {
         .filter_map(|axis| Span::of(result.points.iter().map(|p| p.position_mm[axis])))
         .map(Span::length)
         .fold(0.0, f64::max);
-    let error = number::largest(cutting(result.points).map(|p| norm(&p.error_before_mm)))?;
+    let error = number::largest(result.cutting_points().map(|p| norm(&p.error_before_mm)))?;
     if size <= 0.0 || error <= 0.0 {
         return None;
     }
@@ -138,11 +137,7 @@ impl Extent {
 
     fn gutter(&self) -> f64 {
         let labels = self.up.ticks(6);
-        let widest = labels
-            .iter()
-            .map(|tick| text::width(&tick.label, TEXT_SIZE))
-            .fold(0.0, f64::max);
-        widest + 36.0
+        widest(labels.iter().map(|tick| tick.label.as_str())) + 36.0
     }
 
     /// The spans that fill a frame with the same scale both ways.
@@ -465,10 +460,6 @@ fn displaced(point: &PointResult, magnification: f64) -> Option<[f64; 3]> {
         )?;
     }
     Some(place)
-}
-
-fn cutting(points: &[PointResult]) -> impl Iterator<Item = &PointResult> {
-    points.iter().filter(|p| p.kind != PointKind::Rapid)
 }
 
 /// True if the path is not flat.

@@ -12,7 +12,7 @@ use crate::expanding::radius::pending::Shape;
 use crate::expanding::radius::stage::Radius;
 use crate::expanding::radius::words::{Motion, divided, no_motion, other_side};
 use crate::expanding::translate::{MotionBlock, Polar};
-use crate::expanding::{Dialect, Origin, Trouble, Wrong};
+use crate::expanding::{Dialect, Origin, Trouble, Wrong, wrong};
 use crate::path::curve::Curve;
 use crate::path::moves::{Move, MoveKind};
 use crate::reading::interpreting::Interpreter;
@@ -35,10 +35,6 @@ pub(crate) struct Coordinates<'o> {
     /// The code of motion of the program, where the flat one has another in force: behind mirrored arcs, say, or G80 of Fanuc. Whatever
     /// ends coordinates (G50, G50.1, G69) is in another group, and leaves it as it is.
     code_due: Option<&'static str>,
-}
-
-fn wrong<T>(reason: impl Into<String>, remedy: &'static str) -> Result<T, Trouble> {
-    Err(Trouble::Line((reason.into(), remedy)))
 }
 
 impl<'o> Coordinates<'o> {

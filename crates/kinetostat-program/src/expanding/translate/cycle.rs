@@ -2,7 +2,7 @@
 
 use crate::expanding::translate::holes::{Hole, Spindle};
 use crate::expanding::translate::{MotionBlock, Place};
-use crate::expanding::{Dialect, Wrong};
+use crate::expanding::{Dialect, Wrong, wrong};
 use crate::number::number;
 use crate::reading::interpreting::Interpreter;
 
@@ -65,10 +65,6 @@ impl Cycle {
         let blocks = rigid.map(str::to_owned).into_iter();
         blocks.chain([text, end.to_owned()]).collect()
     }
-}
-
-fn wrong<T>(reason: impl Into<String>, remedy: &'static str) -> Result<T, Wrong> {
-    Err((reason.into(), remedy))
 }
 
 /// True if a code (in tenths) is a canned cycle.
