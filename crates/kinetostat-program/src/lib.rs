@@ -48,7 +48,6 @@ mod expanding;
 mod field;
 #[doc(hidden)]
 pub mod internal;
-mod irregular;
 mod machine_program;
 mod number;
 mod parts;
@@ -57,45 +56,38 @@ mod reading;
 mod text;
 mod writing;
 
-pub use along::foot::Foot;
 pub use along::in_order::{WhyLeftOut, in_order, in_order_by};
-pub use along::nominal::{FeedPiece, NoFeedMove, NominalPath, Pass};
+pub use along::{FeedPiece, Foot, NoFeedMove, NominalPath, Pass};
+pub use checking::Verification;
 pub use checking::field::{Farthest, FieldCheck, verify_against_field};
-pub use checking::verifier::Verification;
 pub use checking::verify::verify_written;
 pub use error::{MapError, ProgramError, ProgramErrorKind, WriteError};
 pub use expanding::expand::{expand, expand_or_faults, expansion_faults};
-pub use expanding::expanded::{Expanded, Origin};
-pub use expanding::options::{Dialect, ExpandOptions, OriginComments};
 pub use expanding::run::source::{NoSubprograms, Subprograms};
-pub use field::correction::Correction;
+pub use expanding::{Dialect, ExpandOptions, Expanded, Origin, OriginComments};
 pub use field::map::CorrectionMap;
-pub use field::request::{
-    CorrectionField, Course, FieldFailure, Monitor, NoCorrection, Request, Structure, Turning,
-    Unwatched,
+pub use field::{
+    Correction, CorrectionField, Course, FieldFailure, Monitor, NoCorrection, Request, Structure,
+    Turning, Unwatched,
 };
-pub use irregular::irregular;
 pub use machine_program::{Gcode, MachineProgram};
-pub use parts::gcode_part::GcodePart;
-pub use parts::in_order::{PartsInOrder, PlaceInOrder, Standing};
-pub use parts::length::PartLength;
+pub use number::irregular;
+pub use parts::PartLength;
+pub use parts::in_order::{GcodePart, PartsInOrder, PlaceInOrder, Standing, WrittenSoFar};
 pub use parts::survey::{PartError, Survey};
 pub use parts::windows::{Part, Parts};
-pub use parts::written_so_far::WrittenSoFar;
 pub use path::closed_circle::{NearlyClosed, angle_about, last_digit_mm};
 pub use path::curve::{Arc, Curve};
 pub use path::great_circle::{GreatCircle, OffCircle};
 pub use path::moves::{
     CoordinateWords, ExtraAxis, ExtraMode, Feed, FeedMode, Knowledge, Move, MoveKind, Path,
-    PathPart, ToolChange, Warning,
+    PathPart, Pause, PauseKind, ToolChange, Warning,
 };
-pub use path::pause::{Pause, PauseKind};
 pub use path::rotary::{Carries, RotaryAxes, RotaryAxis};
 pub use path::rotary_angles::Unreached;
-pub use path::rotary_turn::{RotaryTurn, StatedBy};
 pub use path::spindle::{SpeedMode, Spindle, SpindleChange, SpindleRotation};
 pub use path::tool_direction::Directed;
-pub use path::tool_turn::ToolTurn;
+pub use path::tool_turn::{RotaryTurn, StatedBy, ToolTurn};
 pub use reading::dialect::{CODES, Code, Treatment};
 pub use reading::faults::faults;
 pub use reading::interpreting::interpret::interpret;
@@ -104,9 +96,9 @@ pub use reading::options::{BlockDelete, OtherAxes, ReadOptions, ToolCentrePoint,
 pub use text::program::{COMPENSATED_MARK, HEADER_PREFIX, MAX_READ_LINE_BYTES, Program};
 pub use writing::accounting::{Accounting, ShortBlocksOfLine};
 pub use writing::directed_moves::DIRECTION_DECIMALS;
-pub use writing::jump::Turn;
+pub use writing::node::Turn;
 pub use writing::options::{Arcs, Circles, WriteOptions};
+pub use writing::output_state::WrittenArc;
 pub use writing::plan::{Plan, PlannedArc, PlannedMove, PlannedPiece, WrittenEnd, WrittenMove};
 pub use writing::write::write_corrected;
 pub use writing::written::{Corrected, Piece, WriterState, WrittenCircle};
-pub use writing::written_arc::WrittenArc;

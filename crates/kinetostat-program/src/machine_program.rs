@@ -1,9 +1,9 @@
 //! A program in whatever language, as far as a run over it needs to know: its path, and how it is written with corrections.
 
-use crate::checking::verifier::Verification;
+use crate::checking::Verification;
 use crate::checking::verify::verify_written;
 use crate::error::WriteError;
-use crate::field::request::{CorrectionField, Monitor};
+use crate::field::{CorrectionField, Monitor};
 use crate::path::moves::Path;
 use crate::reading::options::ReadOptions;
 use crate::text::program::Program;

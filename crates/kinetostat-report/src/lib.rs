@@ -11,7 +11,7 @@
 //!   the deviation
 //!   magnified; `page` fills the template (minijinja with automatic escaping).
 //! - `chart`: `plot` draws curves over any two quantities, `section` a quantity over a plane, `panel` values over the
-//!   length of a path. They share `axis`, `outline`, `label` and `title`.
+//!   length of a path. They share axes, `outline` and `label`.
 //! - `drawing`: a machine in space, as lines on paper.
 //! - `vibration`: stability lobes and receptances.
 //! - `turns`: the free turn of a round tool along a path, over all turns that were tried.
@@ -36,7 +36,6 @@
 
 mod chart;
 mod drawing;
-mod literal;
 mod number;
 mod paper;
 mod run;
@@ -48,8 +47,8 @@ mod vibration;
 use kinetostat_chatter::LobeDiagram;
 use kinetostat_machining::{ChatterResult, CuttingResult, Run, RunResult, TurnChoice};
 
+use run::Shown;
 use run::page;
-use run::shown::Shown;
 
 pub use chart::bars::{Bar, Bars};
 pub use chart::plot::{Plot, PlotLine, PlotMark};
@@ -112,7 +111,7 @@ pub fn html_of_run_and_turns(
 /// ```
 #[must_use]
 pub fn engagement_svg(cutting: &CuttingResult, map: Option<&Section>, title: &str) -> String {
-    run::engagement::draw(cutting, map, title)
+    run::cutting::engagement(cutting, map, title)
 }
 
 /// The turns of a round tool about its own axis that were chosen along a path, as one picture, 760 by 560: every turn of the band over the

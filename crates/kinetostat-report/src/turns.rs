@@ -74,7 +74,7 @@ fn section(choice: &TurnChoice) -> Section {
         value_label: "distance of the nearest joint to its limit, % of half its range".to_owned(),
         cells: cells.collect(),
         others: vec!["not allowed: limit, singular or out of reach".to_owned()],
-        lines: vec![chosen(choice, (*low, *high))],
+        lines: vec![chosen(choice, [*low, *high])],
         x,
         y,
         ..Section::default()
@@ -88,7 +88,7 @@ fn title(choice: &TurnChoice) -> String {
 }
 
 /// The turn that was chosen, inside the band: on a whole circle the line goes on at its other end.
-fn chosen(choice: &TurnChoice, (low, high): (f64, f64)) -> PlotLine {
+fn chosen(choice: &TurnChoice, [low, high]: [f64; 2]) -> PlotLine {
     let middle = 0.5 * (low + high);
     let circles = |turn: f64| 360.0 * ((turn - middle) / 360.0).round();
     let mut points = Vec::with_capacity(choice.stations.len());

@@ -350,7 +350,7 @@ impl MachineProgram for Correctable<'_> {
             true => vec![Circles::Straight; self.path.motions.len()],
             false => self.circles(),
         };
-        let plan = Plan::with_circles(&self.path.path, field, (options, &circles), monitor)?;
+        let plan = Plan::with_circles(&self.path.path, field, options, &circles, monitor)?;
         refuse_lost_turn(&self.path.path, &plan)?;
         refuse_lost_orientation(self.program, self.path, &plan)?;
         let half_mm = 0.5 * options.last_digit_mm(1.0);
@@ -378,8 +378,8 @@ impl MachineProgram for Correctable<'_> {
             true => files.remove(self.path.file).1,
             false => Vec::new(),
         };
-        let size = (self.statement_count(), self.bytes().len());
-        let mut corrected = plan.corrected(size, &written, bytes);
+        let bytes_in = self.bytes().len();
+        let mut corrected = plan.corrected(self.statement_count(), bytes_in, &written, bytes);
         corrected.beside = files;
         if turns_axes {
             corrected.rotary_deg = angles;

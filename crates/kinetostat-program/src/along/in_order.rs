@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::along::foot::Foot;
+use crate::along::Foot;
 
 /// The most that a way may cost which does not fit that between two points.
 const DEAREST_STEP: f64 = 4.0;

@@ -4,11 +4,10 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::checking::verifier::fail;
+use crate::checking::fail;
 use crate::error::WriteError;
-use crate::field::request::{CorrectionField, Monitor, Request, Turning};
-use crate::irregular::irregular;
-use crate::number::larger;
+use crate::field::{CorrectionField, Monitor, Request, Turning};
+use crate::number::{irregular, larger};
 use crate::path::moves::{Knowledge, Move, Path};
 use crate::writing::node::{is_corrected_at_end, is_divided};
 use crate::writing::options::WriteOptions;
@@ -127,7 +126,7 @@ pub fn verify_against_field(
         }
         if !is_divided(motion) {
             if is_corrected_at_end(motion) {
-                looks.push(Look::on(motion, piece, (1.0, 1.0, None), At::EndOfMove));
+                looks.push(Look::on(motion, piece, 1.0, 1.0, None, At::EndOfMove));
             }
             continue;
         }
@@ -155,7 +154,7 @@ pub fn verify_against_field(
             &breaks.1,
             field.turns(),
             |part, share, turning, at| {
-                let look = Look::on(motion, piece, (part, share, turning), at);
+                let look = Look::on(motion, piece, part, share, turning, at);
                 looks.push(Look { allowed, ..look });
             },
         );
@@ -172,7 +171,9 @@ impl Look {
     fn on(
         motion: &Move,
         piece: &Piece,
-        (part, share, turning): (f64, f64, Option<Turning>),
+        part: f64,
+        share: f64,
+        turning: Option<Turning>,
         at: At,
     ) -> Self {
         Self {

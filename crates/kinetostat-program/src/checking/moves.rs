@@ -4,15 +4,13 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::Vector3;
 
+use crate::checking::{Verifier, fail};
 use crate::error::WriteError;
-use crate::irregular::irregular;
-use crate::number::larger;
+use crate::number::{irregular, larger};
 use crate::path::curve::{Curve, NO_LENGTH_MM};
 use crate::path::moves::{ExtraMode, FeedMode, Knowledge, Move, MoveKind, Path};
-use crate::path::rotary_turn::{RotaryTurn, StatedBy};
+use crate::path::tool_turn::{RotaryTurn, StatedBy};
 use crate::writing::written::Piece;
-
-use crate::checking::verifier::{Verifier, fail};
 
 /// Largest difference between a place as written and as read again, in mm: arithmetic only.
 const SAME_PLACE_MM: f64 = 1e-6;
@@ -91,7 +89,7 @@ impl Verifier<'_> {
             self.check_speed(motion, piece, read)?;
             self.check_directions(index, motion, read)?;
             let turned = self.check_turned_axes(index, motion, read)?;
-            check_extra_axes(motion, piece, (read, turned))?;
+            check_extra_axes(motion, piece, read, &turned)?;
         }
         if expected != (own.end, 0.0) {
             return Err(fail(
@@ -335,7 +333,7 @@ impl Verifier<'_> {
         let off = (at(&again.end_deg) - wanted).norm();
         if own.great_circle.is_some() {
             let stand = written.map_or_else(|| own.angles_deg(piece.share_to), Clone::clone);
-            same_angles(motion, &own, (&again.end_deg, &stand))?;
+            same_angles(motion, &own, &again.end_deg, &stand)?;
         }
         let before = index.checked_sub(1).and_then(tilt);
         let tilted = before.unwrap_or(0.0) + tilt(index).unwrap_or(0.0);
@@ -413,7 +411,8 @@ const AT_POLE_RAD: f64 = 1e-6;
 fn same_angles(
     motion: &Move,
     own: &RotaryTurn,
-    (read, written): (&[f64], &[f64]),
+    read: &[f64],
+    written: &[f64],
 ) -> Result<(), WriteError> {
     let from_pole = own.axes.from_pole_rad(written).unwrap_or(FRAC_PI_2);
     if from_pole < AT_POLE_RAD {
@@ -439,7 +438,8 @@ fn same_angles(
 fn check_extra_axes(
     motion: &Move,
     piece: &Piece,
-    (read, turned): (&Move, Vec<char>),
+    read: &Move,
+    turned: &[char],
 ) -> Result<(), WriteError> {
     let broken = |letter: char| {
         Err(fail(

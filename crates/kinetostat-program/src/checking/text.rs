@@ -2,17 +2,16 @@
 
 use std::ops::Range;
 
-use crate::checking::verifier::{Verifier, fail};
+use crate::checking::{Verifier, fail};
 use crate::error::WriteError;
 use crate::number::decimals_of;
 use crate::path::curve::Curve;
 use crate::path::moves::{Feed, FeedMode, Move};
-use crate::path::rotary_turn::StatedBy;
-use crate::text::line::{Line, Word};
+use crate::path::tool_turn::StatedBy;
 use crate::text::program::Program;
-use crate::writing::blocks::block_text::{is_after_motion, motion_word};
-use crate::writing::header::lines_above;
-use crate::writing::written::Piece;
+use crate::text::{Line, Word};
+use crate::writing::blocks::{is_after_motion, motion_word};
+use crate::writing::written::{Piece, lines_above};
 
 impl Verifier<'_> {
     /// Checks all lines of the output in order.
@@ -54,12 +53,7 @@ impl Verifier<'_> {
             } else {
                 group.extend(output.next());
             }
-            self.check_group(
-                number,
-                line,
-                motion.map(|motion| (motion, shapes.as_slice())),
-                &group,
-            )?;
+            self.check_group(number, line, motion, &shapes, &group)?;
             if !self.input.words(line).is_empty() {
                 blocks += group.len();
             }
@@ -134,7 +128,8 @@ impl Verifier<'_> {
         &mut self,
         number: usize,
         line: &Line,
-        motion: Option<(&Move, &[Shape])>,
+        motion: Option<&Move>,
+        shapes: &[Shape],
         group: &[(usize, &Line)],
     ) -> Result<(), WriteError> {
         let Some(((first_index, first), further)) = group.split_first() else {
@@ -158,8 +153,8 @@ impl Verifier<'_> {
         }
         let written = self.output.content(first);
         let original = self.input.content(line);
-        let corrected = motion.filter(|(motion, _)| !motion.words.is_to_machine());
-        let Some((motion, shapes)) = corrected else {
+        let corrected = motion.filter(|motion| !motion.words.is_to_machine());
+        let Some(motion) = corrected else {
             if self.output.bytes()[written] != self.input.bytes()[original] {
                 return broken("a line without a coordinate has changed");
             }
@@ -197,7 +192,7 @@ impl Verifier<'_> {
         }
         let mut codes = self.codes(self.output, first);
         for ((index, line), shape) in further.iter().zip(&shapes[1..]) {
-            self.check_further(number, (motion, *shape), *index, line)?;
+            self.check_further(number, motion, *shape, *index, line)?;
             let repeated = |code: &(u8, i64)| names_motion && *code == (b'G', 10);
             let further_codes = self.codes(self.output, line);
             codes.extend(further_codes.into_iter().filter(|code| !repeated(code)));
@@ -283,7 +278,8 @@ impl Verifier<'_> {
     fn check_further(
         &self,
         number: usize,
-        (motion, shape): (&Move, Shape),
+        motion: &Move,
+        shape: Shape,
         index: usize,
         line: &Line,
     ) -> Result<(), WriteError> {

@@ -1,5 +1,6 @@
 //! The last check before a written program is put in place: what it promises is read off its bytes.
 
+use crate::checking::{Verification, Verifier};
 use crate::error::{ProgramError, WriteError};
 use crate::path::moves::Path;
 use crate::reading::interpreting::interpret::interpret;
@@ -7,8 +8,6 @@ use crate::reading::options::ReadOptions;
 use crate::text::program::Program;
 use crate::writing::options::WriteOptions;
 use crate::writing::written::Corrected;
-
-use crate::checking::verifier::{Verification, Verifier};
 
 /// Reads a written program with the same reader and checks what every written program satisfies:
 ///
@@ -43,12 +42,7 @@ pub fn verify_written(
     };
     let output = Program::read(corrected.bytes.clone()).map_err(unreadable)?;
     let output_path = interpret(&output, reading).map_err(unreadable)?;
-    against_input(
-        (input, input_path),
-        (&output, &output_path),
-        corrected,
-        writing,
-    )
+    against_input(input, input_path, &output, &output_path, corrected, writing)
 }
 
 /// A written program that was read again, against the program that it was written from.
@@ -56,8 +50,10 @@ pub fn verify_written(
 /// # Errors
 /// As [`verify_written`].
 pub(crate) fn against_input(
-    (input, input_path): (&Program, &Path),
-    (output, output_path): (&Program, &Path),
+    input: &Program,
+    input_path: &Path,
+    output: &Program,
+    output_path: &Path,
     corrected: &Corrected,
     writing: &WriteOptions,
 ) -> Result<Verification, WriteError> {

@@ -5,12 +5,10 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 
 use crate::error::{ProgramError, excerpt};
-use crate::expanding::expanded::Origin;
-use crate::expanding::options::{ExpandOptions, OriginComments};
-use crate::expanding::source_lines::{in_source_lines, of_source};
+use crate::expanding::{ExpandOptions, Origin, OriginComments, in_source_lines, of_source};
 use crate::path::moves::{Path, Warning};
 use crate::reading::faults::take_over_understood;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::repeated::Repeated;
 use crate::text::program::{Program, Reader};
 

@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 
 use crate::error::MapError;
-use crate::field::correction::Correction;
-use crate::field::request::{CorrectionField, Course, FieldFailure, Request, Structure};
+use crate::field::{Correction, CorrectionField, Course, FieldFailure, Request, Structure};
 use crate::path::moves::Move;
 
 /// Columns of the table: where a node is, and its correction.

@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 use std::hash::{DefaultHasher, Hasher};
 use std::sync::Arc;
 
-use crate::parts::length::PartLength;
-use crate::reading::interpreting::interpreter::InterpreterState;
+use crate::parts::PartLength;
+use crate::reading::interpreting::InterpreterState;
 use crate::text::program::ReaderState;
 
 /// Modal state of reader and interpreter before a line.

@@ -1,9 +1,24 @@
-//! Parts that are worked on side by side and written one behind the other.
+//! Parts that are worked on side by side and written one behind the other, and the state of the written program between two.
 
 use std::collections::VecDeque;
+use std::io::BufRead;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 
-use crate::parts::written_so_far::WrittenSoFar;
+use crate::checking::Verification;
+use crate::checking::verify::against_input;
+use crate::error::{ProgramError, WriteError};
+use crate::field::{CorrectionField, Monitor};
+use crate::machine_program::MachineProgram;
+use crate::parts::survey::{Lines, PartError, Survey};
+use crate::parts::windows::Part;
+use crate::path::moves::Path;
+use crate::reading::interpreting::Interpreter;
+use crate::reading::options::ReadOptions;
+use crate::text::first_line;
+use crate::text::program::{PartOfText, Program, Reader, ReaderState};
+use crate::writing::options::WriteOptions;
+use crate::writing::write::Divided;
+use crate::writing::written::{Corrected, WriterState};
 
 /// Parts that are worked on side by side and written one behind the other. The text of a part depends slightly on those before it:
 /// on the modes in which they leave the controller, the feed rate in force and the last position. A part goes on as soon as the one
@@ -207,5 +222,157 @@ impl<'o> PlaceInOrder<'_, 'o> {
             state.before.pop_front();
         }
         self.order.changed.notify_all();
+    }
+}
+
+/// A part of a program in G-code, to be written behind the parts before it.
+pub struct GcodePart<'a, 'o> {
+    /// The part.
+    pub part: &'a Part,
+    /// Place of the part among the others.
+    pub place: &'a PlaceInOrder<'a, 'o>,
+}
+
+impl MachineProgram for GcodePart<'_, '_> {
+    fn bytes(&self) -> &[u8] {
+        self.part.program.own_bytes()
+    }
+
+    fn statement_count(&self) -> usize {
+        self.part.program.block_count()
+    }
+
+    fn path(&self) -> &Path {
+        &self.part.path
+    }
+
+    fn mark_line(&self) -> Option<usize> {
+        let own = self.part.program.own_numbers();
+        let found = self.part.program.mark_line();
+        found.filter(|line| own.contains(line))
+    }
+
+    fn write(
+        &self,
+        field: &dyn CorrectionField,
+        options: &WriteOptions,
+        monitor: &dyn Monitor,
+    ) -> Result<Corrected, WriteError> {
+        let (program, path) = (&self.part.program, &self.part.path);
+        let divided = Divided::of(program, path, field, options, monitor)?;
+        let before = self.place.before().ok_or(WriteError::Cancelled)?;
+        divided.emit(before.writer())
+    }
+
+    fn verify(
+        &self,
+        written: &Corrected,
+        options: &WriteOptions,
+    ) -> Result<Verification, WriteError> {
+        let before = self.place.before().ok_or(WriteError::Cancelled)?;
+        let again = before.read_again(written);
+        let (output, output_path, behind) = again.map_err(|error| WriteError::Verification {
+            line: 0,
+            output_line: error.line,
+            what: format!("it cannot be read again: {error}"),
+        })?;
+        self.place.put_behind(behind);
+        let (input, input_path) = (&self.part.program, &self.part.path);
+        against_input(input, input_path, &output, &output_path, written, options)
+    }
+}
+
+/// State of a written program: the modal state of a controller that has run it so far, and that of its writer.
+pub struct WrittenSoFar<'o> {
+    survey: &'o Survey,
+    reader: ReaderState,
+    interpreter: Interpreter<'o>,
+    writer: Option<WriterState>,
+}
+
+impl<'o> WrittenSoFar<'o> {
+    /// State before anything is written.
+    #[must_use]
+    pub fn nothing(survey: &'o Survey, reading: &'o ReadOptions) -> Self {
+        Self {
+            survey,
+            reader: ReaderState::default(),
+            interpreter: Interpreter::new(reading),
+            writer: None,
+        }
+    }
+
+    /// Continues after these written lines, with this state of the writer: from what an interrupted run has left.
+    ///
+    /// # Errors
+    /// They cannot be read.
+    pub fn go_on(&mut self, written: impl BufRead, writer: WriterState) -> Result<(), PartError> {
+        let mut lines = Lines::new(written);
+        let mut line = Vec::new();
+        let mut reader = Reader::following(&self.reader);
+        let mut count = 0;
+        loop {
+            line.clear();
+            if !lines.next(&mut line)? {
+                break;
+            }
+            reader.next_line(&line)?;
+            self.interpreter.run_line(reader.program(), count)?;
+            count += 1;
+            if count == 4096 {
+                self.interpreter.pass_moves(|_, _| ());
+                reader.keep_nothing();
+                count = 0;
+            }
+        }
+        self.reader = reader.state();
+        self.interpreter = self.interpreter.following();
+        self.writer = Some(writer);
+        Ok(())
+    }
+
+    /// State of the writer; `None` before the first part.
+    #[must_use]
+    pub fn writer(&self) -> Option<&WriterState> {
+        self.writer.as_ref()
+    }
+
+    /// Lines of the written program so far.
+    #[must_use]
+    pub fn lines(&self) -> usize {
+        self.reader.lines
+    }
+
+    /// Reads the text of a part again after all that was written before, and returns the state of the written program after it.
+    pub(crate) fn read_again(
+        &self,
+        written: &Corrected,
+    ) -> Result<(Program, Path, Self), ProgramError> {
+        let bytes = written.bytes.as_slice();
+        let mut reader = Reader::following(&self.reader);
+        let mut interpreter = self.interpreter.following();
+        let (mut start, mut index) = (0, 0);
+        while start < bytes.len() {
+            let (length, ending) = first_line(&bytes[start..]);
+            let next = start + length + ending.len();
+            reader.next_line(&bytes[start..next])?;
+            interpreter.run_line(reader.program(), index)?;
+            (start, index) = (next, index + 1);
+        }
+        let behind = Self {
+            survey: self.survey,
+            reader: reader.state(),
+            interpreter: interpreter.following(),
+            writer: written.writer.as_deref().cloned(),
+        };
+        let mut program = reader.into_program();
+        let before = self.reader.lines;
+        program.set_part(PartOfText {
+            core: before + 1..before + index + 1,
+            usual_ending: self.survey.usual_ending.clone(),
+            repeats_motion: false,
+        });
+        let path = interpreter.finish_part(&program, self.survey.stated)?;
+        Ok((program, path, behind))
     }
 }

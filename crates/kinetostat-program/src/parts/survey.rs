@@ -5,15 +5,15 @@ use std::io::{BufRead, Error as IoError};
 use thiserror::Error;
 
 use crate::error::ProgramError;
+use crate::parts::PartLength;
 use crate::parts::beginnings::{Beginning, Beginnings, ByKnown, NextLine, covers, index_of};
-use crate::parts::length::PartLength;
 use crate::path::curve::Curve;
 use crate::path::moves::{Move, MoveKind, Warning};
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::options::ReadOptions;
-use crate::text::line::first_line;
+use crate::text::first_line;
 use crate::text::program::{MAX_READ_LINE_BYTES, Reader, ReaderState};
-use crate::writing::blocks::block_text::motion_word;
+use crate::writing::blocks::motion_word;
 
 /// Lines that are in memory at a time.
 const BLOCK: usize = 4096;
@@ -215,7 +215,7 @@ impl Surveyor {
         if let Some(line) = first.map(|behind| behind.first_line).min() {
             self.found
                 .warnings
-                .push(crate::reading::interpreting::finish::unknown_beginning(
+                .push(crate::reading::interpreting::interpret::unknown_beginning(
                     line, count,
                 ));
             self.found.warnings.sort_by_key(|warning| warning.line);

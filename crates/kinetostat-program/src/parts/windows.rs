@@ -5,7 +5,7 @@ use std::io::{BufRead, Seek, SeekFrom};
 use crate::parts::beginnings::Check;
 use crate::parts::survey::{Lines, PartError, Survey};
 use crate::path::moves::{Path, PathPart};
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::options::ReadOptions;
 use crate::text::program::{PartOfText, Program, Reader};
 

@@ -2,7 +2,6 @@
 //!
 //! Plain geometry in mm, part frame. Knows no text.
 
-mod area_of_turns;
 pub(crate) mod closed_circle;
 pub(crate) mod crossing;
 pub(crate) mod curve;
@@ -10,15 +9,9 @@ pub(crate) mod feed;
 pub(crate) mod great_circle;
 pub(crate) mod moves;
 pub(crate) mod orientation;
-pub(crate) mod pause;
-pub(crate) mod pauses;
-pub(crate) mod poles;
-pub(crate) mod position_offset;
 pub(crate) mod rotary;
 pub(crate) mod rotary_angles;
 pub(crate) mod rotary_findings;
-pub(crate) mod rotary_turn;
 pub(crate) mod spindle;
 pub(crate) mod tool_direction;
 pub(crate) mod tool_turn;
-pub(crate) mod turning;

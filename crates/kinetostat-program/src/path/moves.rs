@@ -7,8 +7,6 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::path::curve::{Curve, NO_LENGTH_MM};
-use crate::path::pause::Pause;
-use crate::path::position_offset::OffsetChange;
 use crate::path::spindle::SpindleChange;
 use crate::path::tool_turn::ToolTurn;
 
@@ -320,4 +318,100 @@ pub struct PathPart {
     pub whole_feed_mm: f64,
     /// Arcs at feed in the whole program.
     pub whole_feed_arcs: usize,
+}
+
+/// A block in which the tool stands still.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Pause {
+    /// Line of the block, counted from 1.
+    pub line: usize,
+    /// Kind of the pause.
+    pub kind: PauseKind,
+}
+
+/// Kind of a pause.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum PauseKind {
+    /// A dwell (G4) with the number of its P: seconds on some controllers, milliseconds on others.
+    Dwell(f64),
+    /// A dwell with X or U, which are seconds where controllers have them.
+    DwellSeconds(f64),
+    /// A dwell whose time is not stated, or is stated in turns of the spindle.
+    DwellUnknown,
+    /// A stop until somebody starts again (M0, M1, M60).
+    Stop,
+    /// A change of tools (M6).
+    ToolChange,
+}
+
+impl PauseKind {
+    /// Kind in words.
+    ///
+    /// ```
+    /// use kinetostat_program::PauseKind;
+    ///
+    /// assert_eq!(PauseKind::ToolChange.description(), "a change of tools (M6)");
+    /// ```
+    #[must_use]
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Dwell(_) | Self::DwellSeconds(_) | Self::DwellUnknown => "a dwell (G4)",
+            Self::Stop => "a stop (M0, M1 or M60)",
+            Self::ToolChange => "a change of tools (M6)",
+        }
+    }
+}
+
+/// Change of the position offset by a block.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum OffsetChange {
+    /// G92: the place where the tool stands gets these coordinates (in mm).
+    Here {
+        coordinates_mm: [Option<f64>; 3],
+        work_offset_mm: Vector3<f64>,
+        /// The axis was unknown: its place is what the word says.
+        establishes: [bool; 3],
+    },
+    /// G92.1
+    Clear,
+    /// G92.2
+    Suspend,
+    /// G92.3
+    Resume,
+}
+
+/// The position offset of one run of a program: the one in the input, or the one in the output.
+///
+/// The two differ: the controller takes its commanded position as the reference of G92, and in the
+/// output that is the corrected one.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub(crate) struct PositionOffset {
+    pub active_mm: Vector3<f64>,
+    saved_mm: Vector3<f64>,
+}
+
+impl PositionOffset {
+    /// Applies a change while the tool is at `position_mm`.
+    pub fn apply(&mut self, change: &OffsetChange, position_mm: &Vector3<f64>) {
+        match change {
+            OffsetChange::Here {
+                coordinates_mm,
+                work_offset_mm,
+                ..
+            } => {
+                for axis in 0..3 {
+                    if let Some(coordinate) = coordinates_mm[axis] {
+                        self.active_mm[axis] =
+                            position_mm[axis] - work_offset_mm[axis] - coordinate;
+                    }
+                }
+                self.saved_mm = self.active_mm;
+            }
+            OffsetChange::Clear => *self = Self::default(),
+            OffsetChange::Suspend => self.active_mm = Vector3::zeros(),
+            OffsetChange::Resume => self.active_mm = self.saved_mm,
+        }
+    }
 }

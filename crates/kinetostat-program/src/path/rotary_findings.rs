@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::number::larger;
 use crate::path::moves::{Knowledge, Move, MoveKind, Path, Warning};
 use crate::path::rotary::RotaryAxes;
-use crate::path::rotary_turn::{RotaryTurn, StatedBy};
+use crate::path::tool_turn::{RotaryTurn, StatedBy};
 
 /// Directions that differ by less are one.
 const SAME: f64 = 1e-7;

@@ -1,8 +1,14 @@
-//! The orientation of the tool along a move.
+//! The orientation of the tool along a move, the motion of a machine's rotary axes in it, and the poles near which directions of the
+//! tool determine that poorly.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
 
 use nalgebra::{Isometry3, UnitQuaternion, UnitVector3, Vector3};
 
-use crate::path::rotary_turn::RotaryTurn;
+use crate::number::{larger, smaller};
+use crate::path::great_circle::GreatCircle;
+use crate::path::rotary::{ONE_AXIS, RotaryAxes};
 
 /// The orientation of the tool at the two ends of a move, part axes from tool axes: what is written in axes of the tool, turned by
 /// it, is in axes of the part.
@@ -149,4 +155,172 @@ struct Swivel {
     way: Vector3<f64>,
     /// About it, axes of the tool.
     turn: Vector3<f64>,
+}
+
+/// Motion of the rotary axes in a move: each turns linearly with the share, or all of them lead the tool's axis on a great
+/// circle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RotaryTurn {
+    /// The axes.
+    pub axes: Arc<RotaryAxes>,
+    /// Angles at the start of the move, in the order of the axes, deg.
+    pub start_deg: Vec<f64>,
+    /// Angles at the end of the move.
+    pub end_deg: Vec<f64>,
+    /// Origin of the program's words (`G10 L2`).
+    pub origin_deg: Vec<f64>,
+    /// Great circle of the tool's axis in the part; `None` if each axis turns linearly with the share.
+    pub great_circle: Option<GreatCircle>,
+    /// Kind of the program's words: angles or a direction.
+    pub stated: StatedBy,
+}
+
+/// Kind of words by which a program states the angles of rotary axes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum StatedBy {
+    /// Words of the axes.
+    #[default]
+    Angles,
+    /// Direction of the tool (G43.5 I J K, A3 B3 C3, six numbers of a GOTO).
+    Direction,
+}
+
+impl RotaryTurn {
+    /// Angles of the axes at a share of the move, deg.
+    #[must_use]
+    pub fn angles_deg(&self, share: f64) -> Vec<f64> {
+        if let Some(circle) = &self.great_circle
+            && share > 0.0
+            && share < 1.0
+        {
+            return circle.angles_at(&self.axes, share);
+        }
+        let both = self.start_deg.iter().zip(&self.end_deg);
+        both.map(|(start, end)| start + (end - start) * share.clamp(0.0, 1.0))
+            .collect()
+    }
+
+    /// Travel of each axis, back and forth, deg.
+    #[must_use]
+    pub fn ways_deg(&self) -> Vec<f64> {
+        if let Some(circle) = &self.great_circle {
+            return circle.way_deg();
+        }
+        let both = self.start_deg.iter().zip(&self.end_deg);
+        both.map(|(start, end)| (end - start).abs()).collect()
+    }
+
+    /// Orientation of the tool at a share of the move, part axes from tool axes.
+    #[must_use]
+    pub fn tool(&self, share: f64) -> UnitQuaternion<f64> {
+        self.axes.tool(&self.angles_deg(share))
+    }
+
+    /// Motion of the part at a share of the move from its place at zero; `None` on a machine without tables.
+    ///
+    /// ```
+    /// use kinetostat_program::{Carries, RotaryAxes, RotaryAxis, RotaryTurn, StatedBy};
+    /// use nalgebra::{UnitQuaternion, Vector3};
+    ///
+    /// let head = RotaryAxis {
+    ///     letter: 'A',
+    ///     carries: Carries::Tool,
+    ///     direction: Vector3::x_axis(),
+    ///     point_mm: Vector3::zeros(),
+    ///     limits_deg: None,
+    /// };
+    /// let axes = RotaryAxes { axes: vec![head], tool_at_zero: UnitQuaternion::identity() };
+    /// let turn = RotaryTurn {
+    ///     axes: axes.into(),
+    ///     start_deg: vec![0.0],
+    ///     end_deg: vec![30.0],
+    ///     origin_deg: vec![0.0],
+    ///     great_circle: None,
+    ///     stated: StatedBy::Angles,
+    /// };
+    /// assert!(turn.part(0.5).is_none());
+    /// assert_eq!((turn.angles_deg(0.5), turn.ways_deg()), (vec![15.0], vec![30.0]));
+    /// assert!((turn.tool(1.0).angle().to_degrees() - 30.0).abs() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn part(&self, share: f64) -> Option<Isometry3<f64>> {
+        self.axes
+            .turns_part()
+            .then(|| self.axes.part(&self.angles_deg(share)))
+    }
+}
+
+/// Turns smaller than this are none, rad.
+const NO_TURN: f64 = 1e-9;
+
+/// Poles, near which directions of the tool determine its rotary axes poorly.
+///
+/// Two axes turn the tool, one after the other. The area that the two turns span is `n . R(second) z` times one, with `n` the cross
+/// product of both axes: it depends on the angle of the second axis alone, as a cosine, and is zero twice in a revolution. There the
+/// tool lies along the first axis (the pole), or as far from it as it comes, and many angles give nearly one direction.
+impl RotaryTurn {
+    /// The shares of a move of evenly turning axes between which the second axis stands nearer than `near_rad` (less by the sine of the
+    /// angle between both axes) to an angle at which directions say little, two for each pole. Empty if it stands there all along.
+    ///
+    /// ```
+    /// use kinetostat_program::{Carries, RotaryAxes, RotaryAxis, RotaryTurn, StatedBy};
+    /// use nalgebra::{UnitQuaternion, Vector3};
+    ///
+    /// let head = |letter, direction| RotaryAxis {
+    ///     letter,
+    ///     carries: Carries::Tool,
+    ///     direction,
+    ///     point_mm: Vector3::zeros(),
+    ///     limits_deg: None,
+    /// };
+    /// let axes = vec![head('C', Vector3::z_axis()), head('A', Vector3::x_axis())];
+    /// let turn = RotaryTurn {
+    ///     axes: RotaryAxes { axes, tool_at_zero: UnitQuaternion::identity() }.into(),
+    ///     start_deg: vec![0.0, 20.0],
+    ///     end_deg: vec![90.0, -20.0],
+    ///     origin_deg: vec![0.0; 2],
+    ///     great_circle: None,
+    ///     stated: StatedBy::Direction,
+    /// };
+    /// // Halfway the tool is upright, along C: within a degree of that from 19 of 40 degrees to 21.
+    /// let [from, to] = turn.shares_near_poles(1_f64.to_radians())[0];
+    /// assert!((from - 19.0 / 40.0).abs() < 1e-12 && (to - 21.0 / 40.0).abs() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn shares_near_poles(&self, near_rad: f64) -> Vec<[f64; 2]> {
+        let (order, turning) = self.axes.in_order_of_turning();
+        let ([_, second], [first_axis, second_axis]) = (order.as_slice(), turning.as_slice())
+        else {
+            return Vec::new();
+        };
+        let across = first_axis.cross(second_axis);
+        let from = self.start_deg[*second].to_radians();
+        let way = self.end_deg[*second].to_radians() - from;
+        if across.norm() < ONE_AXIS || way.abs() < NO_TURN {
+            return Vec::new();
+        }
+        let area = |angle: f64| {
+            let turn = UnitQuaternion::from_axis_angle(second_axis, angle);
+            across.dot(&(turn * Vector3::z()))
+        };
+        let [at_zero, at_quarter] = [area(0.0), area(FRAC_PI_2)];
+        if at_zero.hypot(at_quarter) < ONE_AXIS {
+            return Vec::new();
+        }
+        let first_pole = at_quarter.atan2(at_zero) + FRAC_PI_2;
+        let near = near_rad / across.norm();
+        let (least, largest) = (smaller(from, from + way), larger(from, from + way));
+        let mut number = ((least - near - first_pole) / PI).ceil();
+        let mut shares = Vec::new();
+        while first_pole + number * PI < largest + near {
+            let pole = first_pole + number * PI;
+            let ends = [pole - near, pole + near].map(|angle| (angle - from) / way);
+            let [a, b] = ends.map(|share| share.clamp(0.0, 1.0));
+            shares.push([smaller(a, b), larger(a, b)]);
+            number += 1.0;
+        }
+        shares.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        shares.retain(|[from, to]| from < to && to - from < 1.0);
+        shares
+    }
 }

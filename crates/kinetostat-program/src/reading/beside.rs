@@ -7,7 +7,7 @@ use crate::reading::extra::ExtraAxes;
 use crate::reading::moment::{Placed, moment_of};
 use crate::reading::options::{OtherAxes, ReadOptions};
 use crate::reading::repeated::Repeated;
-use crate::text::line::Word;
+use crate::text::Word;
 
 /// Letters of the axes that the program is read for.
 pub(crate) const COORDINATES: [u8; 3] = *b"XYZ";

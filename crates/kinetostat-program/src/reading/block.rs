@@ -3,8 +3,8 @@
 use crate::error::{ProgramError, ProgramErrorKind, excerpt};
 use crate::path::moves::Motion;
 use crate::reading::dialect::{Treatment, lookup};
-use crate::text::line::{Line, LineKind, Word};
 use crate::text::program::Program;
+use crate::text::{Line, LineKind, Word};
 
 /// The codes of a block that are followed, at most one of each group.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

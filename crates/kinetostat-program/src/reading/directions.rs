@@ -131,7 +131,8 @@ impl RotaryWords<'_> {
     pub fn take_direction(
         self,
         block: &Block<'_>,
-        (kind, motion): (MoveKind, Motion),
+        kind: MoveKind,
+        motion: Motion,
         modes: &mut Modes,
     ) -> Result<Option<GreatCircle>, ProgramError> {
         let (Some(law), Some(axes)) = (modes.directions, self.axes()) else {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::error::{ProgramError, ProgramErrorKind};
 use crate::reading::block::Block;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::options::{ReadOptions, Units};
 use crate::text::library::only_definitions;
 use crate::text::program::Program;

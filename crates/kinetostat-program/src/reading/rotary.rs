@@ -3,8 +3,7 @@
 use crate::error::{ProgramError, ProgramErrorKind};
 use crate::path::moves::{Feed, FeedMode, Move, MoveKind};
 use crate::path::rotary::RotaryAxes;
-use crate::path::rotary_turn::{RotaryTurn, StatedBy};
-use crate::path::tool_turn::ToolTurn;
+use crate::path::tool_turn::{RotaryTurn, StatedBy, ToolTurn};
 use crate::reading::block::Block;
 use crate::reading::modes::Modes;
 use crate::reading::options::{OtherAxes, ReadOptions, ToolCentrePoint};
@@ -94,7 +93,8 @@ impl<'o> RotaryWords<'o> {
         self,
         block: &Block<'_>,
         kind: MoveKind,
-        (before, modes): (&[Option<f64>], &Modes),
+        before: &[Option<f64>],
+        modes: &Modes,
         places: &mut Places,
     ) -> Result<Option<Box<ToolTurn>>, ProgramError> {
         let Some(axes) = self.options.rotary.clone().filter(|_| !modes.axes_in_doubt) else {

@@ -8,7 +8,7 @@ use crate::error::{ProgramError, ProgramErrorKind};
 use crate::path::spindle::{SpeedMode, Spindle, SpindleChange, SpindleRotation};
 use crate::reading::block::Block;
 use crate::reading::options::Units;
-use crate::text::line::Word;
+use crate::text::Word;
 
 /// Faster than any spindle (rpm) and any cut (m/min, feet/min).
 const LARGEST_SPEED: f64 = 1e6;

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::path::moves::{FeedMode, Motion};
 use crate::path::spindle::{Spindle, SpindleRotation};
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::options::{OtherAxes, Units};
 
 /// First of the numbered parameters that say where the tool is, in program coordinates and units: X, Y, Z.

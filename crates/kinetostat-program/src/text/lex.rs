@@ -12,7 +12,7 @@ use winnow::prelude::*;
 use winnow::stream::LocatingSlice;
 use winnow::token::{any, one_of, take, take_till, take_while};
 
-use crate::text::line::tenths;
+use crate::text::tenths;
 
 type Input<'i> = LocatingSlice<&'i [u8]>;
 

@@ -4,11 +4,9 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::error::{ProgramError, ProgramErrorKind, excerpt};
-use crate::text::after_end::acting_word;
 use crate::text::lex::{Spanned, Token, tokens_of};
-use crate::text::library::only_definitions;
-use crate::text::line::{Line, LineKind, Word, first_line};
-use crate::text::syntax;
+use crate::text::library::{acting_word, only_definitions};
+use crate::text::{Line, LineKind, Word, first_line, syntax};
 
 /// First words of the comment that marks a program as compensated.
 pub const COMPENSATED_MARK: &str = "kinetostat: compensated program";

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use crate::text::LineKind;
 use crate::text::lex::{Spanned, Token};
-use crate::text::line::LineKind;
 
 /// A line that may be kept.
 pub(crate) struct Checked {

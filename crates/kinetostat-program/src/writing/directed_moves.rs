@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use crate::error::WriteError;
 use crate::number::{larger, rounded};
 use crate::path::moves::{Move, Path};
-use crate::path::rotary_turn::{RotaryTurn, StatedBy};
+use crate::path::tool_turn::{RotaryTurn, StatedBy};
 use crate::writing::node::{Node, is_divided};
 
 /// Digits after the point of directions.

@@ -5,24 +5,22 @@ use nalgebra::{Vector3, Vector6};
 use crate::error::WriteError;
 use crate::number::larger;
 use crate::path::curve::Curve;
-use crate::path::moves::{Change, Knowledge, Move, Path};
-use crate::path::position_offset::{OffsetChange, PositionOffset};
-use crate::text::line::Line;
+use crate::path::moves::{Change, Knowledge, Move, OffsetChange, Path, PositionOffset};
+use crate::text::Line;
 use crate::text::program::Program;
 use crate::writing::accounting::Accounting;
-use crate::writing::blocks::arc_of_piece::arc_form;
-use crate::writing::blocks::axis_words::UNCHANGED_MM;
-use crate::writing::blocks::block_text::motion_word;
+use crate::writing::arc_words::arc_form;
 use crate::writing::blocks::block_writer::{BlockWriter, ProgramStyle};
+use crate::writing::blocks::motion_word;
+use crate::writing::blocks::words::UNCHANGED_MM;
 use crate::writing::dividing::divide::Division;
-use crate::writing::header::{header, lines_above};
 use crate::writing::merge::Accepted;
 use crate::writing::node::{Node, is_divided};
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::{OutputMove, OutputState, motion_of};
 use crate::writing::piece_account::{AsWritten, PieceAccount};
 use crate::writing::steps::Steps;
-use crate::writing::written::{Corrected, WriterState};
+use crate::writing::written::{Corrected, WriterState, header, lines_above};
 
 pub(crate) struct Emitter<'a> {
     program: &'a Program,
@@ -270,7 +268,7 @@ impl<'a> Emitter<'a> {
         let own = self.program.ending(line);
         let between = if own.is_empty() { usual } else { own };
         let before = self.bytes.len();
-        let mut block = BlockWriter::new((self.program, line), motion, &self.style, self.options);
+        let mut block = BlockWriter::new(self.program, line, motion, &self.style, self.options);
         block.turned.were_turned = self.state.turned_deg.iter().any(|turned| *turned != 0.0);
         let (mut steps, nodes) =
             self.steps
@@ -382,7 +380,7 @@ impl<'a> Emitter<'a> {
                 self.state.motion = Some(motion_of(motion));
             }
         } else {
-            let block = BlockWriter::new((self.program, line), motion, &self.style, self.options);
+            let block = BlockWriter::new(self.program, line, motion, &self.style, self.options);
             let content = block.uncorrected_line(&mut self.state);
             self.push_line(motion.line, content, self.program.ending(line))?;
         }

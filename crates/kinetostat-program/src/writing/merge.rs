@@ -22,7 +22,8 @@ pub(crate) struct Accepted {
 /// Both lists are sorted by move and share; moves without accepted stretches keep their nodes.
 pub(crate) fn merge(
     nodes: Vec<Node>,
-    (accepted, directed): (&[Accepted], &[Option<DirectedMove<'_>>]),
+    accepted: &[Accepted],
+    directed: &[Option<DirectedMove<'_>>],
     options: &WriteOptions,
 ) -> Vec<Node> {
     if accepted.is_empty() {
@@ -36,7 +37,7 @@ pub(crate) fn merge(
         let first = rest[..own].partition_point(|stretch| stretch.move_index < move_index);
         let own_stretches = &rest[first..own];
         let directed = directed[move_index].as_ref();
-        merge_move(group, (own_stretches, directed), options, &mut merged);
+        merge_move(group, own_stretches, directed, options, &mut merged);
         rest = &rest[own..];
     }
     merged
@@ -44,7 +45,8 @@ pub(crate) fn merge(
 
 fn merge_move(
     group: &[Node],
-    (accepted, directed): (&[Accepted], Option<&DirectedMove<'_>>),
+    accepted: &[Accepted],
+    directed: Option<&DirectedMove<'_>>,
     options: &WriteOptions,
     merged: &mut Vec<Node>,
 ) {

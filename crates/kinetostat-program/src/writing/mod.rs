@@ -1,20 +1,17 @@
 //! From a program, its path and a field of corrections to the corrected program.
 //!
-//! In the order of work: the path is divided where the correction bends or jumps ([`dividing`], [`corner`], [`merge`]), arcs
+//! In the order of work: the path is divided where the correction bends or jumps ([`dividing`], [`node`], [`merge`]), arcs
 //! are fitted to the corrected curves of arcs ([`fitting`]), pieces become blocks ([`emit`], [`blocks`]), and every block is accounted for ([`accounting`]).
 
 pub(crate) mod accounting;
 pub(crate) mod arc_words;
 pub(crate) mod blocks;
-pub(crate) mod corner;
 pub(crate) mod corrected_curve;
 pub(crate) mod departure;
 pub(crate) mod directed_moves;
 pub(crate) mod dividing;
 pub(crate) mod emit;
 pub(crate) mod fitting;
-pub(crate) mod header;
-pub(crate) mod jump;
 pub(crate) mod merge;
 pub(crate) mod node;
 pub(crate) mod options;
@@ -27,4 +24,3 @@ pub(crate) mod short_blocks;
 pub(crate) mod steps;
 pub(crate) mod write;
 pub(crate) mod written;
-pub(crate) mod written_arc;

@@ -7,10 +7,9 @@ use crate::path::moves::{Feed, FeedMode, Knowledge, Move, MoveKind, Path, Warnin
 use crate::writing::accounting::{Accounting, Rate, duration, duration_at};
 use crate::writing::node::is_divided;
 use crate::writing::options::WriteOptions;
-use crate::writing::output_state::OutputMove;
+use crate::writing::output_state::{OutputMove, WrittenArc};
 use crate::writing::short_blocks::{ShortBlocks, Whose};
 use crate::writing::written::{Piece, WrittenCircle};
-use crate::writing::written_arc::WrittenArc;
 
 /// Text of a piece as written.
 #[derive(Debug, Clone, Copy, Default)]
@@ -103,7 +102,7 @@ impl<'a> PieceAccount<'a> {
             feed_limited: written.feed_limited,
         };
         let written_mm = piece.length_mm(&self.path.moves[move_index]);
-        self.note_piece(move_index, step, (written, written_mm));
+        self.note_piece(move_index, step, written, written_mm);
         self.pieces.push(piece);
     }
 
@@ -120,7 +119,8 @@ impl<'a> PieceAccount<'a> {
         &mut self,
         move_index: usize,
         step: &OutputMove,
-        (written, written_mm): (&AsWritten, f64),
+        written: &AsWritten,
+        written_mm: f64,
     ) {
         let motion = &self.path.moves[move_index];
         let accounting = &mut self.accounting;
@@ -164,8 +164,8 @@ impl<'a> PieceAccount<'a> {
                 true => Whose::Input,
                 false => Whose::Piece,
             };
-            let block = (written_mm, seconds);
-            self.short.note((motion, whose), block, self.options);
+            self.short
+                .note(motion, whose, written_mm, seconds, self.options);
             self.rate.note(seconds);
             self.note_backward(move_index, step, written);
         } else {

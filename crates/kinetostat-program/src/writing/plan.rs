@@ -6,8 +6,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::error::WriteError;
-use crate::field::correction::Correction;
-use crate::field::request::{CorrectionField, Monitor};
+use crate::field::{Correction, CorrectionField, Monitor};
 use crate::path::curve::{Arc, Curve};
 use crate::path::moves::{Feed, FeedMode, Knowledge, Move, MoveKind, Path};
 use crate::writing::accounting::Accounting;
@@ -94,7 +93,7 @@ impl<'a> Plan<'a> {
         options: &'a WriteOptions,
         monitor: &dyn Monitor,
     ) -> Result<Self, WriteError> {
-        Self::with_circles(path, field, (options, &[]), monitor)
+        Self::with_circles(path, field, options, &[], monitor)
     }
 
     /// Variant of [`Plan::new`] in which arcs become circles through a place, or arcs about the same axis, if `circles` (one entry
@@ -110,7 +109,7 @@ impl<'a> Plan<'a> {
     /// let leaning = |request: &Request| Ok(Vector3::z() * 0.01 * request.position_mm.x);
     /// let writing = WriteOptions::default();
     /// let circles = [Circles::Straight, Circles::ThroughPlace];
-    /// let plan = Plan::with_circles(&path, &leaning, (&writing, &circles), &Unwatched)?;
+    /// let plan = Plan::with_circles(&path, &leaning, &writing, &circles, &Unwatched)?;
     /// let pieces = &plan.moves()[1].pieces;
     /// assert!(pieces.len() <= 2 && pieces.iter().all(|piece| piece.via_mm.is_some()));
     /// assert!(Plan::new(&path, &leaning, &writing, &Unwatched)?.moves()[1].pieces.len() > 20);
@@ -122,7 +121,8 @@ impl<'a> Plan<'a> {
     pub fn with_circles(
         path: &'a Path,
         field: &dyn CorrectionField,
-        (options, circles): (&'a WriteOptions, &[Circles]),
+        options: &'a WriteOptions,
+        circles: &[Circles],
         monitor: &dyn Monitor,
     ) -> Result<Self, WriteError> {
         options.check()?;
@@ -131,7 +131,7 @@ impl<'a> Plan<'a> {
             (Arcs::Fit, Some(Circles::AboutAxis)) => Fitted::Arcs,
             _ => Fitted::Nothing,
         };
-        let division = divide(path, field, (options, &fitted), monitor)?;
+        let division = divide(path, field, options, &fitted, monitor)?;
         let evaluations = division.evaluations;
         let mut steps = Steps::new(path, options, division);
         let mut reached = path.moves.first().map_or_else(Vector3::zeros, |m| m.start);
@@ -187,7 +187,8 @@ impl<'a> Plan<'a> {
     #[must_use]
     pub fn corrected(
         self,
-        (blocks_in, bytes_in): (usize, usize),
+        blocks_in: usize,
+        bytes_in: usize,
         written: &[WrittenMove],
         bytes: Vec<u8>,
     ) -> Corrected {
@@ -310,7 +311,7 @@ fn pieces(
 /// let field = |request: &Request| Ok(request.position_mm * 2e-3 + Vector3::z() * 0.1);
 /// let writing = WriteOptions::default();
 /// let circles = [Circles::Straight, Circles::AboutAxis];
-/// let plan = Plan::with_circles(&path, &field, (&writing, &circles), &Unwatched)?;
+/// let plan = Plan::with_circles(&path, &field, &writing, &circles, &Unwatched)?;
 /// let piece = &plan.moves()[1].pieces.iter().find(|piece| piece.arc.is_some()).unwrap();
 /// let arc = piece.arc.unwrap();
 /// assert!((arc.angle_rad - std::f64::consts::FRAC_PI_2).abs() < 1e-6);

@@ -3,7 +3,7 @@
 use nalgebra::{Vector3, Vector6};
 
 use crate::error::WriteError;
-use crate::field::request::{CorrectionField, Monitor, Request};
+use crate::field::{CorrectionField, Monitor, Request};
 use crate::number::larger;
 use crate::path::moves::{Knowledge, Move, MoveKind, Path};
 

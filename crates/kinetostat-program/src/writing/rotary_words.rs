@@ -7,7 +7,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::number;
 use crate::path::moves::{ExtraMode, Move};
-use crate::path::rotary_turn::{RotaryTurn, StatedBy};
+use crate::path::tool_turn::{RotaryTurn, StatedBy};
 use crate::writing::directed_moves::DIRECTION_DECIMALS;
 use crate::writing::output_state::{OutputMove, OutputState};
 
@@ -79,7 +79,8 @@ impl TurnedAxes<'_> {
     pub fn words_of_piece(
         &self,
         state: &mut OutputState,
-        (steps, index): (&[OutputMove], usize),
+        steps: &[OutputMove],
+        index: usize,
         own: impl Fn(u8) -> Option<f64>,
     ) -> Vec<RotaryWord> {
         let Some(rotary) = self.rotary().filter(|_| self.has_words(steps)) else {
@@ -101,7 +102,7 @@ impl TurnedAxes<'_> {
                 _ => [None; 3],
             };
             let is_own = step.share_to >= 1.0 && step.tilt == Vector3::zeros();
-            return words_of_direction((&stood, &stands), standing, is_own);
+            return words_of_direction(&stood, &stands, standing, is_own);
         }
         let mut words = Vec::with_capacity(wanted.len());
         for (axis, wanted) in wanted.into_iter().enumerate() {
@@ -162,7 +163,8 @@ fn directed(
 /// I, J and K of a piece in which the tool turns from one direction to another one. `standing` are the numbers that stand in its line;
 /// where the piece ends as the block does (`is_own`), they stay.
 fn words_of_direction(
-    (stood, stands): (&Vector3<f64>, &Vector3<f64>),
+    stood: &Vector3<f64>,
+    stands: &Vector3<f64>,
     standing: [Option<f64>; 3],
     is_own: bool,
 ) -> Vec<RotaryWord> {

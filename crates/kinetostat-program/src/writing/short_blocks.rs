@@ -117,7 +117,7 @@ impl Found {
         }
     }
 
-    fn warning(&self, (limit, options): (&str, &WriteOptions), whose: Whose) -> Option<Warning> {
+    fn warning(&self, limit: &str, options: &WriteOptions, whose: Whose) -> Option<Warning> {
         let Shortest {
             length_mm,
             seconds,
@@ -186,8 +186,10 @@ impl ShortBlocks {
     /// A block at feed with its length as written and the time that it takes.
     pub fn note(
         &mut self,
-        (motion, whose): (&Move, Whose),
-        (length_mm, seconds): (f64, Option<f64>),
+        motion: &Move,
+        whose: Whose,
+        length_mm: f64,
+        seconds: Option<f64>,
         options: &WriteOptions,
     ) {
         // A turn in place has no length; its time counts.
@@ -232,8 +234,8 @@ impl ShortBlocks {
         let limit: Vec<String> = length.into_iter().chain(rate).collect();
         let limit = limit.join(", ");
         [
-            self.pieces.warning((&limit, options), Whose::Piece),
-            self.input.warning((&limit, options), Whose::Input),
+            self.pieces.warning(&limit, options, Whose::Piece),
+            self.input.warning(&limit, options, Whose::Input),
         ]
         .into_iter()
         .flatten()

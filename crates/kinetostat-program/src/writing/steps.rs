@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::{Vector3, Vector6};
 
 use crate::error::WriteError;
-use crate::field::correction::Correction;
+use crate::field::Correction;
 use crate::number::larger;
 use crate::path::curve::Curve;
 use crate::path::moves::{Move, Path};
@@ -14,9 +14,8 @@ use crate::writing::directed_moves::DirectedMove;
 use crate::writing::dividing::beginning::Fitted;
 use crate::writing::dividing::divide::Division;
 use crate::writing::fitting::stretch::{ArcForm, Fit, FittedPiece, Shape, Span};
-use crate::writing::jump::{Jump, Turn};
 use crate::writing::merge::Accepted;
-use crate::writing::node::{Node, is_corrected_at_end, is_divided};
+use crate::writing::node::{Jump, Node, Turn, is_corrected_at_end, is_divided};
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::OutputMove;
 use crate::writing::short_blocks::ShortestBlock;
@@ -115,9 +114,9 @@ impl<'a> Steps<'a> {
                 };
                 match shape {
                     Some(shape) if known => {
-                        self.fitted((move_index, shape), range.clone(), reached)?
+                        self.fitted(move_index, shape, range.clone(), reached)?
                     }
-                    _ if known => self.straight((move_index, range.clone()), reached)?,
+                    _ if known => self.straight(move_index, range.clone(), reached)?,
                     _ => self.divided(motion, range.clone(), reached, Ends::All),
                 }
             }
@@ -129,7 +128,8 @@ impl<'a> Steps<'a> {
     /// Pieces of a shape in place of the straight ones between two jumps of the correction.
     fn fitted(
         &mut self,
-        (move_index, shape): (usize, Shape<'_>),
+        move_index: usize,
+        shape: Shape<'_>,
         range: Range<usize>,
         reached: Vector3<f64>,
     ) -> Result<Vec<OutputMove>, WriteError> {
@@ -146,7 +146,8 @@ impl<'a> Steps<'a> {
     /// Straight pieces; where one is shorter than the controller takes, those between two jumps are shared out anew.
     fn straight(
         &mut self,
-        (move_index, range): (usize, Range<usize>),
+        move_index: usize,
+        range: Range<usize>,
         reached: Vector3<f64>,
     ) -> Result<Vec<OutputMove>, WriteError> {
         let motion = &self.path.moves[move_index];
@@ -163,7 +164,7 @@ impl<'a> Steps<'a> {
             shape: Shape::Straight,
             options: self.options,
         };
-        let anew = straight_pieces(&fit, (&spans, &steps), reached, &shortest)?;
+        let anew = straight_pieces(&fit, &spans, &steps, reached, &shortest)?;
         let says = |own: DirectedMove<'_>| {
             anew.iter()
                 .all(|step| own.goes_on(step.share_from, step.share_to))
@@ -271,7 +272,8 @@ fn curved_pieces(
 /// shared out anew. `spans` has one long piece between two jumps.
 fn straight_pieces(
     fit: &Fit<'_>,
-    (spans, steps): (&[OutputMove], &[OutputMove]),
+    spans: &[OutputMove],
+    steps: &[OutputMove],
     reached: Vector3<f64>,
     shortest: &ShortestBlock,
 ) -> Result<Vec<OutputMove>, WriteError> {

@@ -1,7 +1,7 @@
 //! From a program, its path and a field of corrections to the corrected program.
 
 use crate::error::WriteError;
-use crate::field::request::{CorrectionField, Monitor};
+use crate::field::{CorrectionField, Monitor};
 use crate::path::moves::Path;
 use crate::text::program::Program;
 use crate::writing::dividing::beginning::Fitted;
@@ -35,7 +35,7 @@ pub fn write_corrected(
     options: &WriteOptions,
     monitor: &dyn Monitor,
 ) -> Result<Corrected, WriteError> {
-    Divided::of((program, path), (field, options), monitor)?.emit(None)
+    Divided::of(program, path, field, options, monitor)?.emit(None)
 }
 
 /// A program, or a part of one, whose blocks are divided: all that takes long, and does not depend on what is written before.
@@ -50,8 +50,10 @@ impl<'a> Divided<'a> {
     /// # Errors
     /// As [`write_corrected`].
     pub fn of(
-        (program, path): (&'a Program, &'a Path),
-        (field, options): (&dyn CorrectionField, &'a WriteOptions),
+        program: &'a Program,
+        path: &'a Path,
+        field: &dyn CorrectionField,
+        options: &'a WriteOptions,
         monitor: &dyn Monitor,
     ) -> Result<Self, WriteError> {
         options.check()?;
@@ -75,7 +77,7 @@ impl<'a> Divided<'a> {
             Arcs::Fit if !field.turns_tool() => Fitted::Arcs,
             Arcs::Fit | Arcs::Lines => Fitted::Nothing,
         };
-        let division = divide(path, field, (options, &fitted), monitor)?;
+        let division = divide(path, field, options, &fitted, monitor)?;
         Ok(Self {
             program,
             path,

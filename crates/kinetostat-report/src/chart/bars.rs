@@ -2,7 +2,7 @@
 
 use kinetostat_machining::number::{larger, smaller};
 
-use crate::chart::title::title_lines;
+use crate::chart::label::title_lines;
 use crate::svg::{Anchor, Svg};
 use crate::text;
 
@@ -47,9 +47,9 @@ impl Bars {
         let titles = title_lines(&self.title, WIDTH - 36.0);
         let top = 28.0 + 18.0 * titles.len() as f64;
         let height = top + ROW * self.bars.len().max(1) as f64 + 14.0;
-        svg.rectangle("card", (0.5, 0.5), (WIDTH - 1.0, height - 1.0), 10.0);
+        svg.rectangle("card", [0.5, 0.5], [WIDTH - 1.0, height - 1.0], 10.0);
         for (k, line) in titles.iter().enumerate() {
-            svg.text("title", (18.0, 28.0 + 18.0 * k as f64), Anchor::Start, line);
+            svg.text("title", [18.0, 28.0 + 18.0 * k as f64], Anchor::Start, line);
         }
         let values = || {
             self.bars
@@ -65,7 +65,7 @@ impl Bars {
         for (k, bar) in self.bars.iter().enumerate() {
             let y = top + ROW * k as f64;
             let name = text::shorten(&bar.name, 34);
-            svg.text("name", (NAMES - 10.0, y + 14.0), Anchor::End, &name);
+            svg.text("name", [NAMES - 10.0, y + 14.0], Anchor::End, &name);
             let length = if bar.value.is_finite() {
                 bar.value * unit
             } else {
@@ -75,12 +75,12 @@ impl Bars {
                 true => ("negative", zero + length),
                 false => ("share", zero),
             };
-            svg.rectangle(class, (from, y + 3.0), (length.abs(), ROW - 8.0), 2.0);
+            svg.rectangle(class, [from, y + 3.0], [length.abs(), ROW - 8.0], 2.0);
             let end = zero + length.max(0.0) + 8.0;
-            svg.text("tick", (end, y + 14.0), Anchor::Start, &bar.figure);
+            svg.text("tick", [end, y + 14.0], Anchor::Start, &bar.figure);
         }
         let bottom = top + ROW * self.bars.len() as f64;
-        svg.line("axis", (zero, top), (zero, bottom));
-        svg.document((WIDTH, height), &self.title, STYLE)
+        svg.line("axis", [zero, top], [zero, bottom]);
+        svg.document([WIDTH, height], &self.title, STYLE)
     }
 }

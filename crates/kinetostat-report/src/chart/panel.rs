@@ -3,11 +3,10 @@
 use kinetostat_machining::{CutPlace, Envelope, PointKind, PointResult, Quantity};
 
 use crate::chart::area::area_data;
-use crate::chart::axis::{Scale, Span, Tick};
-use crate::chart::label::{Frame, Labels, TEXT_SIZE};
+use crate::chart::label::{Frame, Labels, TEXT_SIZE, TITLE_SIZE, title_lines, widest};
 use crate::chart::outline::{path_data, per_column};
-use crate::chart::title::{TITLE_SIZE, title_lines};
-use crate::svg::{Anchor, Svg, pixel};
+use crate::chart::{Scale, Span, Tick};
+use crate::svg::{Anchor, Pixel, Svg, pixel};
 use crate::{number, text};
 
 /// Height of a line of a title, pixels.
@@ -97,7 +96,7 @@ impl Along {
             }
             previous = here;
         }
-        Some(Self::over(span, (factor, label), rapids))
+        Some(Self::over(span, factor, label, rapids))
     }
 
     /// Builds the axis of an envelope; `None` if it has no points.
@@ -113,11 +112,11 @@ impl Along {
                 _ => rapids.push((from, to)),
             }
         }
-        Some(Self::over(span, (factor, label), rapids))
+        Some(Self::over(span, factor, label, rapids))
     }
 
     /// A span in mm.
-    fn over(span: Span, (factor, label): (f64, &'static str), rapids: Vec<(f64, f64)>) -> Self {
+    fn over(span: Span, factor: f64, label: &'static str, rapids: Vec<(f64, f64)>) -> Self {
         let span = span.including(0.0);
         let span = Span {
             low: span.low * factor,
@@ -242,11 +241,8 @@ impl Panel {
 
     /// Room left of the frame for the label and the ticks of the vertical axis.
     pub(crate) fn gutter(&self, height: f64) -> f64 {
-        let ticks = self.ticks(height).into_iter();
-        let widest = ticks
-            .map(|tick| text::width(&tick.label, TEXT_SIZE))
-            .fold(0.0, f64::max);
-        widest + 32.0
+        let ticks = self.ticks(height);
+        widest(ticks.iter().map(|tick| tick.label.as_str())) + 32.0
     }
 
     /// Height of the title beyond its first line, where this much width is left for it.
@@ -255,13 +251,16 @@ impl Panel {
     }
 
     /// Draws the title from the frame's left edge, or farther left where it needs the room.
-    fn draw_title(&self, svg: &mut Svg, frame: &Frame, room: (f64, f64)) {
-        let lines = title_lines(&self.title, room.1 - room.0);
+    fn draw_title(&self, svg: &mut Svg, frame: &Frame, room: Span) {
+        let lines = title_lines(&self.title, room.length());
         let widest = lines.iter().map(|l| text::bold_width(l, TITLE_SIZE));
-        let left = frame.x.min(room.1 - widest.fold(0.0, f64::max)).max(room.0);
+        let left = frame
+            .x
+            .min(room.high - widest.fold(0.0, f64::max))
+            .max(room.low);
         for (k, line) in lines.iter().rev().enumerate() {
             let base = frame.y - 9.0 - TITLE_LINE * k as f64;
-            svg.text("title", (left, base), Anchor::Start, line);
+            svg.text("title", [left, base], Anchor::Start, line);
         }
     }
 
@@ -271,7 +270,7 @@ impl Panel {
         &self,
         svg: &mut Svg,
         frame: Frame,
-        room: (f64, f64),
+        room: Span,
         along: &Along,
         numbered: bool,
     ) {
@@ -279,22 +278,22 @@ impl Panel {
         let y = Scale::new(self.span, frame.bottom(), frame.y);
         svg.rectangle(
             "ground",
-            (frame.x, frame.y),
-            (frame.width, frame.height),
+            [frame.x, frame.y],
+            [frame.width, frame.height],
             0.0,
         );
         svg.path("rapids", &bands(along, &x, &frame));
         for tick in self.ticks(frame.height) {
             let at = y.at(tick.value);
-            svg.line("grid", (frame.x, at), (frame.right(), at));
-            svg.text("tick", (frame.x - 7.0, at + 4.2), Anchor::End, &tick.label);
+            svg.line("grid", [frame.x, at], [frame.right(), at]);
+            svg.text("tick", [frame.x - 7.0, at + 4.2], Anchor::End, &tick.label);
         }
         draw_path_axis(svg, frame, along, &x, numbered);
-        svg.line("axis", (frame.x, frame.y), (frame.x, frame.bottom()));
+        svg.line("axis", [frame.x, frame.y], [frame.x, frame.bottom()]);
         let gutter = self.gutter(frame.height);
         svg.text_upwards(
             "name",
-            (frame.x - gutter + 12.0, frame.y + 0.5 * frame.height),
+            [frame.x - gutter + 12.0, frame.y + 0.5 * frame.height],
             &self.y_label,
         );
         self.draw_title(svg, &frame, room);
@@ -302,7 +301,7 @@ impl Panel {
         let marks: Vec<_> = self
             .marks
             .iter()
-            .map(|m| (x.at(m.at.0), y.at(m.at.1)))
+            .map(|m| [x.at(m.at.0), y.at(m.at.1)])
             .collect();
         let mut labels = Labels::default();
         for area in &self.areas {
@@ -318,21 +317,21 @@ impl Panel {
             let pixels: Vec<_> = series
                 .values
                 .iter()
-                .map(|value| value.map(|(along, value)| (x.at(along), y.at(value))))
+                .map(|value| value.map(|(along, value)| [x.at(along), y.at(value)]))
                 .collect();
             svg.path(series.class, &path_data(&per_column(&pixels)));
         }
         for (mark, at) in self.marks.iter().zip(&marks) {
             svg.marker("mark", *at, &mark.tooltip);
             labels.reserve(Frame {
-                x: at.0 - 5.0,
-                y: at.1 - 5.0,
+                x: at[0] - 5.0,
+                y: at[1] - 5.0,
                 width: 10.0,
                 height: 10.0,
             });
         }
         for (mark, at) in self.marks.iter().zip(&marks) {
-            labels.place(svg, "mark-name", &frame, *at, (0.0, -1.0), &mark.label);
+            labels.place(svg, "mark-name", &frame, *at, [0.0, -1.0], &mark.label);
         }
     }
 
@@ -341,12 +340,12 @@ impl Panel {
         svg: &mut Svg,
         frame: Frame,
         y: &Scale,
-        marks: &[(f64, f64)],
+        marks: &[Pixel],
         labels: &mut Labels,
     ) {
         for limit in &self.limits {
             let at = y.at(limit.value);
-            svg.line("limit", (frame.x, at), (frame.right(), at));
+            svg.line("limit", [frame.x, at], [frame.right(), at]);
             let base = if at - 18.0 > frame.y {
                 at - 5.0
             } else {
@@ -362,7 +361,7 @@ impl Panel {
             // Placed on the left if a marked point with its label needs the right end.
             let busy = marks
                 .iter()
-                .any(|mark| mark.0 > right.x - 60.0 && (mark.1 - base).abs() < 40.0);
+                .any(|mark| mark[0] > right.x - 60.0 && (mark[1] - base).abs() < 40.0);
             let (area, at, anchor) = if busy {
                 (
                     Frame {
@@ -375,7 +374,7 @@ impl Panel {
             } else {
                 (right, frame.right() - 6.0, Anchor::End)
             };
-            svg.text("limit-name", (at, base), anchor, &limit.label);
+            svg.text("limit-name", [at, base], anchor, &limit.label);
             labels.reserve(area);
         }
     }
@@ -385,11 +384,11 @@ fn draw_path_axis(svg: &mut Svg, frame: Frame, along: &Along, x: &Scale, numbere
     let wanted = (frame.width / 95.0).round().clamp(2.0, 10.0) as usize;
     for tick in along.span.ticks(wanted) {
         let at = x.at(tick.value);
-        svg.line("axis", (at, frame.bottom()), (at, frame.bottom() + 4.0));
+        svg.line("axis", [at, frame.bottom()], [at, frame.bottom() + 4.0]);
         if numbered {
             svg.text(
                 "tick",
-                (at, frame.bottom() + 17.0),
+                [at, frame.bottom() + 17.0],
                 Anchor::Middle,
                 &tick.label,
             );
@@ -397,11 +396,11 @@ fn draw_path_axis(svg: &mut Svg, frame: Frame, along: &Along, x: &Scale, numbere
     }
     svg.line(
         "axis",
-        (frame.x, frame.bottom()),
-        (frame.right(), frame.bottom()),
+        [frame.x, frame.bottom()],
+        [frame.right(), frame.bottom()],
     );
     if numbered {
-        let at = (frame.x + 0.5 * frame.width, frame.bottom() + 34.0);
+        let at = [frame.x + 0.5 * frame.width, frame.bottom() + 34.0];
         svg.text("name", at, Anchor::Middle, along.label);
     }
 }
@@ -430,26 +429,21 @@ fn bands(along: &Along, x: &Scale, frame: &Frame) -> String {
 }
 
 /// A row of samples with names; returns the height it takes.
-pub(crate) fn legend(
-    svg: &mut Svg,
-    entries: &[(&str, String)],
-    from: (f64, f64),
-    right: f64,
-) -> f64 {
-    let (mut x, mut y) = from;
+pub(crate) fn legend(svg: &mut Svg, entries: &[(&str, String)], from: Pixel, right: f64) -> f64 {
+    let [mut x, mut y] = from;
     for (class, name) in entries {
         let width = 30.0 + text::width(name, TEXT_SIZE);
-        if x > from.0 && x + width > right {
-            x = from.0;
+        if x > from[0] && x + width > right {
+            x = from[0];
             y += 19.0;
         }
         if matches!(*class, "rapids" | "area") {
-            svg.rectangle(&format!("{class} swatch"), (x, y - 10.0), (22.0, 12.0), 0.0);
+            svg.rectangle(&format!("{class} swatch"), [x, y - 10.0], [22.0, 12.0], 0.0);
         } else {
-            svg.line(class, (x, y - 4.0), (x + 22.0, y - 4.0));
+            svg.line(class, [x, y - 4.0], [x + 22.0, y - 4.0]);
         }
-        svg.text("name", (x + 28.0, y), Anchor::Start, name);
+        svg.text("name", [x + 28.0, y], Anchor::Start, name);
         x += width + 18.0;
     }
-    y - from.1 + 19.0
+    y - from[1] + 19.0
 }

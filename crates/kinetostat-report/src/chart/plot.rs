@@ -6,17 +6,14 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use crate::chart::axis::{Scale, Span, Tick};
-use crate::chart::dashes::Drawn;
-use crate::chart::label::{Frame, TEXT_SIZE};
-use crate::chart::outline::path_data;
+use crate::chart::label::{Frame, Names, title_lines, widest};
+use crate::chart::outline::{Drawn, path_data};
 use crate::chart::panel::legend;
-use crate::chart::point_names::Names;
-use crate::chart::title::title_lines;
-use crate::svg::{Anchor, Svg, pixel};
-use crate::{number, text};
+use crate::chart::{Scale, Span, Tick};
+use crate::number;
+use crate::svg::{Anchor, Pixel, Svg, pixel};
 
-const SIZE: (f64, f64) = (760.0, 480.0);
+const SIZE: [f64; 2] = [760.0, 480.0];
 
 /// Height of a plot below another.
 const LOWER_HEIGHT: f64 = 300.0;
@@ -192,8 +189,8 @@ impl Plot {
     /// Title and legend; returns the height that they take.
     fn head(&self, svg: &mut Svg) -> f64 {
         let mut base = 28.0;
-        for line in title_lines(&self.title, SIZE.0 - 36.0) {
-            svg.text("title", (18.0, base), Anchor::Start, &line);
+        for line in title_lines(&self.title, SIZE[0] - 36.0) {
+            svg.text("title", [18.0, base], Anchor::Start, &line);
             base += 18.0;
         }
         // Solid lines first, each group in the order of the lines.
@@ -211,24 +208,24 @@ impl Plot {
             .map(|(class, name)| (class.as_str(), name.clone()))
             .collect();
         if !named.is_empty() {
-            base += 4.0 + legend(svg, &named, (18.0, base + 4.0), SIZE.0 - 18.0);
+            base += 4.0 + legend(svg, &named, [18.0, base + 4.0], SIZE[0] - 18.0);
         }
         base - 2.0
     }
 
     /// The plot in a size, its frame at least so far from the left edge.
-    fn draw(&self, look: &Look<'_>, size: (f64, f64), least_left: f64) -> Svg {
+    fn draw(&self, look: &Look<'_>, size: [f64; 2], least_left: f64) -> Svg {
         let mut svg = Svg::default();
-        svg.rectangle("card", (0.5, 0.5), (size.0 - 1.0, size.1 - 1.0), 10.0);
+        svg.rectangle("card", [0.5, 0.5], [size[0] - 1.0, size[1] - 1.0], 10.0);
         let Some((mut x_span, mut y_span)) = self.spans(look) else {
-            let middle = (0.5 * size.0, 0.5 * size.1);
+            let middle = size.map(|side| 0.5 * side);
             svg.text("name", middle, Anchor::Middle, "no points to show");
             return svg;
         };
         let top = self.head(&mut svg);
-        let height = size.1 - top - 54.0;
+        let height = size[1] - top - 54.0;
         if look.shape {
-            let width = size.0 - gutter(&look.ticks(1, y_span, 7)) - 24.0;
+            let width = size[0] - gutter(&look.ticks(1, y_span, 7)) - 24.0;
             let unit = (x_span.length() / width).max(y_span.length() / height);
             x_span = about(&x_span, unit * width);
             y_span = about(&y_span, unit * height);
@@ -238,7 +235,7 @@ impl Plot {
         let frame = Frame {
             x: left,
             y: top,
-            width: size.0 - left - 24.0,
+            width: size[0] - left - 24.0,
             height,
         };
         if look.shape {
@@ -247,16 +244,11 @@ impl Plot {
         }
         let x = Scale::new(x_span, frame.x, frame.right());
         let y = Scale::new(y_span, frame.bottom(), frame.y);
-        self.draw_axes(
-            &mut svg,
-            frame,
-            (&x, &y),
-            [look.ticks(0, x_span, 8), y_ticks],
-        );
+        self.draw_axes(&mut svg, frame, &x, &y, [look.ticks(0, x_span, 8), y_ticks]);
         let pixel = |p: &(f64, f64)| {
             let x = x.at(number::drawable(p.0)?);
             let y = y.at(number::drawable(p.1)?);
-            Some((x, y))
+            Some([x, y])
         };
         svg.path("unstable", &polygons(look.areas, pixel));
         let mut names = Names::within(frame);
@@ -270,35 +262,36 @@ impl Plot {
         &self,
         svg: &mut Svg,
         frame: Frame,
-        (x, y): (&Scale, &Scale),
+        x: &Scale,
+        y: &Scale,
         [x_ticks, y_ticks]: [Vec<Tick>; 2],
     ) {
         svg.rectangle(
             "ground",
-            (frame.x, frame.y),
-            (frame.width, frame.height),
+            [frame.x, frame.y],
+            [frame.width, frame.height],
             0.0,
         );
         for tick in &y_ticks {
             let at = y.at(tick.value);
-            svg.line("grid", (frame.x, at), (frame.right(), at));
-            svg.text("tick", (frame.x - 7.0, at + 4.2), Anchor::End, &tick.label);
+            svg.line("grid", [frame.x, at], [frame.right(), at]);
+            svg.text("tick", [frame.x - 7.0, at + 4.2], Anchor::End, &tick.label);
         }
         for tick in &x_ticks {
             let at = x.at(tick.value);
-            svg.line("grid", (at, frame.y), (at, frame.bottom()));
+            svg.line("grid", [at, frame.y], [at, frame.bottom()]);
             let base = frame.bottom() + 17.0;
-            svg.text("tick", (at, base), Anchor::Middle, &tick.label);
+            svg.text("tick", [at, base], Anchor::Middle, &tick.label);
         }
-        svg.line("axis", (frame.x, frame.y), (frame.x, frame.bottom()));
+        svg.line("axis", [frame.x, frame.y], [frame.x, frame.bottom()]);
         svg.line(
             "axis",
-            (frame.x, frame.bottom()),
-            (frame.right(), frame.bottom()),
+            [frame.x, frame.bottom()],
+            [frame.right(), frame.bottom()],
         );
-        let below = (frame.x + 0.5 * frame.width, frame.bottom() + 38.0);
+        let below = [frame.x + 0.5 * frame.width, frame.bottom() + 38.0];
         svg.text("name", below, Anchor::Middle, &self.x_label);
-        let beside = (20.0, frame.y + 0.5 * frame.height);
+        let beside = [20.0, frame.y + 0.5 * frame.height];
         svg.text_upwards("name", beside, &self.y_label);
     }
 
@@ -307,7 +300,7 @@ impl Plot {
         &self,
         svg: &mut Svg,
         names: &mut Names,
-        pixel: impl Fn(&(f64, f64)) -> Option<(f64, f64)>,
+        pixel: impl Fn(&(f64, f64)) -> Option<Pixel>,
     ) {
         let mut drawn: BTreeMap<String, Drawn> = BTreeMap::new();
         // Solid lines lie on top of dashed ones.
@@ -332,7 +325,7 @@ impl Plot {
         &self,
         svg: &mut Svg,
         names: &mut Names,
-        pixel: impl Fn(&(f64, f64)) -> Option<(f64, f64)>,
+        pixel: impl Fn(&(f64, f64)) -> Option<Pixel>,
     ) {
         let at: Vec<_> = self.marks.iter().map(|m| pixel(&m.at)).collect();
         for at in at.iter().flatten() {
@@ -367,20 +360,20 @@ pub(crate) fn stacked(plots: &[(&Plot, Look<'_>)], style: &str) -> String {
     let mut svg = Svg::default();
     let mut down = 0.0;
     for (k, (plot, look)) in plots.iter().enumerate() {
-        let height = if k == 0 { SIZE.1 } else { LOWER_HEIGHT };
-        svg.below(down, &plot.draw(look, (SIZE.0, height), left));
+        let height = if k == 0 { SIZE[1] } else { LOWER_HEIGHT };
+        svg.below(down, &plot.draw(look, [SIZE[0], height], left));
         down += height + 8.0;
     }
     let title = plots.first().map_or("", |(plot, _)| &plot.title);
-    svg.document((SIZE.0, down - 8.0), title, &[STYLE, style].concat())
+    svg.document([SIZE[0], down - 8.0], title, &[STYLE, style].concat())
 }
 
 /// Path data of areas as one.
-fn polygons(areas: &[Vec<(f64, f64)>], at: impl Fn(&(f64, f64)) -> Option<(f64, f64)>) -> String {
+fn polygons(areas: &[Vec<(f64, f64)>], at: impl Fn(&(f64, f64)) -> Option<Pixel>) -> String {
     let mut data = String::new();
     for area in areas {
         let corners: Option<Vec<_>> = area.iter().map(&at).collect();
-        for (k, (x, y)) in corners.into_iter().flatten().enumerate() {
+        for (k, [x, y]) in corners.into_iter().flatten().enumerate() {
             let word = if k == 0 { 'M' } else { 'L' };
             let _ = write!(data, "{word}{} {}", pixel(x), pixel(y));
         }
@@ -393,11 +386,7 @@ fn polygons(areas: &[Vec<(f64, f64)>], at: impl Fn(&(f64, f64)) -> Option<(f64, 
 
 /// Room left of a frame for the numbers and the name of its vertical axis.
 fn gutter(ticks: &[Tick]) -> f64 {
-    ticks
-        .iter()
-        .map(|tick| text::width(&tick.label, TEXT_SIZE))
-        .fold(0.0, f64::max)
-        + 46.0
+    widest(ticks.iter().map(|tick| tick.label.as_str())) + 46.0
 }
 
 /// A little room at both ends, so that what runs along the axis can be seen.

@@ -4,17 +4,15 @@
 
 use std::fmt::Write as _;
 
-use crate::chart::axis::{Scale, Span};
-use crate::chart::label::{Frame, TEXT_SIZE};
+use crate::chart::label::{Frame, Names, TEXT_SIZE, title_lines, widest};
 use crate::chart::outline::{first_time, path_data};
 use crate::chart::panel::legend;
 use crate::chart::plot::{PlotLine, PlotMark};
-use crate::chart::point_names::Names;
-use crate::chart::title::title_lines;
+use crate::chart::{Scale, Span};
 use crate::svg::{Anchor, Svg, pixel};
 use crate::{number, text};
 
-const SIZE: (f64, f64) = (760.0, 560.0);
+const SIZE: [f64; 2] = [760.0, 560.0];
 
 const STYLE: &str = concat!(
     include_str!("../template/palette.css"),
@@ -97,14 +95,14 @@ impl Section {
             true => STYLE.to_owned(),
             false => [STYLE, OVER].concat(),
         };
-        self.draw(SIZE.1, Shape::True)
+        self.draw(SIZE[1], Shape::True)
             .document(SIZE, &self.title, &style)
     }
 
     /// The section of two quantities that are not compared: both axes fill the picture.
     pub(crate) fn filled_svg(&self) -> String {
         let style = [STYLE, OVER, BOLD].concat();
-        self.draw(SIZE.1, Shape::Filled)
+        self.draw(SIZE[1], Shape::Filled)
             .document(SIZE, &self.title, &style)
     }
 
@@ -120,20 +118,20 @@ impl Section {
             let (drawn, height) = match unit(&section.x_label) == unit(&section.y_label) {
                 true => {
                     let (drawn, size) = section.fitted();
-                    (drawn, size.1)
+                    (drawn, size[1])
                 }
-                false => (section.draw(SIZE.1, Shape::Filled), SIZE.1),
+                false => (section.draw(SIZE[1], Shape::Filled), SIZE[1]),
             };
             svg.below(down, &drawn);
             down += height + 8.0;
         }
-        svg.document((SIZE.0, down - 8.0), &self.title, &style)
+        svg.document([SIZE[0], down - 8.0], &self.title, &style)
     }
 
     /// Draws the section as an element for a page, which has the style of plots and [`Self::filled_style`];
     /// `description` is its text alternative.
     pub(crate) fn filled_element(&self, description: &str) -> String {
-        self.draw(SIZE.1, Shape::Filled)
+        self.draw(SIZE[1], Shape::Filled)
             .inline("plot framed", SIZE, description)
     }
 
@@ -151,26 +149,26 @@ impl Section {
     }
 
     /// The section as high as it needs to be for its shape, with its size.
-    pub(crate) fn fitted(&self) -> (Svg, (f64, f64)) {
+    pub(crate) fn fitted(&self) -> (Svg, [f64; 2]) {
         let height = match (edges(&self.x), edges(&self.y)) {
-            (Some(x), Some(y)) => 135.0 + (SIZE.0 - 195.0) * y.length() / x.length(),
-            _ => SIZE.1,
+            (Some(x), Some(y)) => 135.0 + (SIZE[0] - 195.0) * y.length() / x.length(),
+            _ => SIZE[1],
         };
         let height = height.clamp(330.0, 720.0);
-        (self.draw(height, Shape::True), (SIZE.0, height))
+        (self.draw(height, Shape::True), [SIZE[0], height])
     }
 
     fn draw(&self, height: f64, shape: Shape) -> Svg {
         let mut svg = Svg::default();
-        let size = (SIZE.0, height);
-        svg.rectangle("card", (0.5, 0.5), (size.0 - 1.0, size.1 - 1.0), 10.0);
+        let size = [SIZE[0], height];
+        svg.rectangle("card", [0.5, 0.5], [size[0] - 1.0, size[1] - 1.0], 10.0);
         let mut top = 28.0;
-        for line in title_lines(&self.title, size.0 - 36.0) {
-            svg.text("title", (18.0, top), Anchor::Start, &line);
+        for line in title_lines(&self.title, size[0] - 36.0) {
+            svg.text("title", [18.0, top], Anchor::Start, &line);
             top += 18.0;
         }
         let (Some(x_span), Some(y_span)) = (edges(&self.x), edges(&self.y)) else {
-            let middle = (0.5 * size.0, 0.5 * size.1);
+            let middle = size.map(|side| 0.5 * side);
             svg.text("name", middle, Anchor::Middle, "no places to show");
             return svg;
         };
@@ -181,18 +179,13 @@ impl Section {
         let bands = Bands::of(values, self.scale_from);
         top += self.reasons(&mut svg, top);
         let y_ticks = y_span.ticks(7);
-        let widest = |labels: &mut dyn Iterator<Item = &str>| {
-            labels
-                .map(|l| text::width(l, TEXT_SIZE))
-                .fold(0.0, f64::max)
-        };
-        let left = widest(&mut y_ticks.iter().map(|t| t.label.as_str())) + 46.0;
-        let scale = widest(&mut bands.labels.iter().map(String::as_str)) + BAR + 54.0;
+        let left = widest(y_ticks.iter().map(|tick| tick.label.as_str())) + 46.0;
+        let scale = widest(bands.labels.iter().map(String::as_str)) + BAR + 54.0;
         let room = Frame {
             x: left,
             y: top,
-            width: size.0 - left - scale - 20.0,
-            height: size.1 - top - 54.0,
+            width: size[0] - left - scale - 20.0,
+            height: size[1] - top - 54.0,
         };
         let unit = (room.width / x_span.length()).min(room.height / y_span.length());
         let (width, height) = match shape {
@@ -207,26 +200,26 @@ impl Section {
         };
         let x = Scale::new(x_span, frame.x, frame.right());
         let y = Scale::new(y_span, frame.bottom(), frame.y);
-        svg.rectangle("ground", (frame.x, frame.y), (width, height), 0.0);
+        svg.rectangle("ground", [frame.x, frame.y], [width, height], 0.0);
         self.fill(&mut svg, &bands, &frame);
-        self.overlay(&mut svg, &frame, (&x, &y));
+        self.overlay(&mut svg, &frame, &x, &y);
         for tick in &y_ticks {
             let at = y.at(tick.value);
-            svg.line("axis", (frame.x - 4.0, at), (frame.x, at));
-            svg.text("tick", (frame.x - 7.0, at + 4.2), Anchor::End, &tick.label);
+            svg.line("axis", [frame.x - 4.0, at], [frame.x, at]);
+            svg.text("tick", [frame.x - 7.0, at + 4.2], Anchor::End, &tick.label);
         }
         for tick in x_span.ticks((frame.width / 70.0).clamp(2.0, 8.0) as usize) {
             let at = x.at(tick.value);
-            svg.line("axis", (at, frame.bottom()), (at, frame.bottom() + 4.0));
-            let below = (at, frame.bottom() + 17.0);
+            svg.line("axis", [at, frame.bottom()], [at, frame.bottom() + 4.0]);
+            let below = [at, frame.bottom() + 17.0];
             svg.text("tick", below, Anchor::Middle, &tick.label);
         }
-        let corner = (frame.x, frame.bottom());
-        svg.line("axis", (frame.x, frame.y), corner);
-        svg.line("axis", corner, (frame.right(), frame.bottom()));
-        let below = (frame.x + 0.5 * width, frame.bottom() + 38.0);
+        let corner = [frame.x, frame.bottom()];
+        svg.line("axis", [frame.x, frame.y], corner);
+        svg.line("axis", corner, [frame.right(), frame.bottom()]);
+        let below = [frame.x + 0.5 * width, frame.bottom() + 38.0];
         svg.text("name", below, Anchor::Middle, &self.x_label);
-        let beside = (frame.x - left + 20.0, frame.y + 0.5 * height);
+        let beside = [frame.x - left + 20.0, frame.y + 0.5 * height];
         svg.text_upwards("name", beside, &self.y_label);
         bands.key(&mut svg, frame.right() + 22.0, &room, &self.value_label);
         svg
@@ -240,28 +233,28 @@ impl Section {
                 continue;
             }
             let class = format!("other{kind} swatch");
-            svg.rectangle(&class, (at, top - 6.0), (22.0, 12.0), 0.0);
-            svg.text("name", (at + 28.0, top + 4.0), Anchor::Start, name);
+            svg.rectangle(&class, [at, top - 6.0], [22.0, 12.0], 0.0);
+            svg.text("name", [at + 28.0, top + 4.0], Anchor::Start, name);
             at += 46.0 + text::width(name, TEXT_SIZE);
         }
         if !self.grey_label.is_empty() {
-            svg.rectangle("grey3 swatch", (at, top - 6.0), (22.0, 12.0), 0.0);
-            let beside = (at + 28.0, top + 4.0);
+            svg.rectangle("grey3 swatch", [at, top - 6.0], [22.0, 12.0], 0.0);
+            let beside = [at + 28.0, top + 4.0];
             svg.text("name", beside, Anchor::Start, &self.grey_label);
             at += 56.0 + text::width(&self.grey_label, TEXT_SIZE);
         }
         let named = self.lines.iter().filter(|line| !line.name.is_empty());
         let entries: Vec<(&str, String)> = named.map(|l| (key(l), l.name.clone())).collect();
         if !entries.is_empty() {
-            return 1.0 + legend(svg, &entries, (at, top + 4.0), SIZE.0 - 18.0);
+            return 1.0 + legend(svg, &entries, [at, top + 4.0], SIZE[0] - 18.0);
         }
         if at > 18.0 { 20.0 } else { 0.0 }
     }
 
     /// Lines and named places over the cells.
-    fn overlay(&self, svg: &mut Svg, frame: &Frame, (x, y): (&Scale, &Scale)) {
+    fn overlay(&self, svg: &mut Svg, frame: &Frame, x: &Scale, y: &Scale) {
         let pixel = |p: &(f64, f64)| {
-            let at = (x.at(number::drawable(p.0)?), y.at(number::drawable(p.1)?));
+            let at = [x.at(number::drawable(p.0)?), y.at(number::drawable(p.1)?)];
             Some(at)
         };
         let mut ways = Svg::default();
@@ -279,7 +272,7 @@ impl Section {
             ways.path(way(line), &data);
         }
         if !self.lines.is_empty() {
-            svg.window((frame.x, frame.y), (frame.width, frame.height), &ways);
+            svg.window([frame.x, frame.y], [frame.width, frame.height], &ways);
         }
         let at: Vec<_> = self.marks.iter().map(|m| pixel(&m.at)).collect();
         for at in at.iter().flatten() {
@@ -426,18 +419,15 @@ impl Bands {
         let bottom = room.y + 0.5 * (room.height + height * bands as f64);
         for band in 0..bands {
             let top = bottom - height * (band + 1) as f64;
-            svg.rectangle(&self.colour(band), (left, top), (BAR, height), 0.0);
+            svg.rectangle(&self.colour(band), [left, top], [BAR, height], 0.0);
         }
         for (k, text) in self.labels.iter().enumerate() {
             let at = bottom - height * (k + 1) as f64;
-            svg.line("axis", (left + BAR, at), (left + BAR + 4.0, at));
-            svg.text("tick", (left + BAR + 7.0, at + 4.2), Anchor::Start, text);
+            svg.line("axis", [left + BAR, at], [left + BAR + 4.0, at]);
+            svg.text("tick", [left + BAR + 7.0, at + 4.2], Anchor::Start, text);
         }
-        let widest = self.labels.iter().map(|l| text::width(l, TEXT_SIZE));
-        let beside = (
-            left + BAR + 26.0 + widest.fold(0.0, f64::max),
-            room.y + 0.5 * room.height,
-        );
+        let widest = widest(self.labels.iter().map(String::as_str));
+        let beside = [left + BAR + 26.0 + widest, room.y + 0.5 * room.height];
         svg.text_upwards("name", beside, label);
     }
 }

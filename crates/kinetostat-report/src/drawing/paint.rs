@@ -4,14 +4,12 @@ use std::collections::BTreeSet;
 
 use nalgebra::Vector3;
 
-use crate::chart::label::{Frame, TEXT_SIZE};
-use crate::chart::point_names::{Beside, Names};
-use crate::chart::title::title_lines;
+use crate::chart::label::{Beside, Frame, Names, TEXT_SIZE, title_lines};
 use crate::drawing::order::{Thing, painting_order, rim};
 use crate::drawing::parts::{Bar, BarKind, Blob, BlobKind, Scene};
 use crate::drawing::symbol::{self, Point, flat};
 use crate::drawing::view::Camera;
-use crate::drawing::{Drawing, Magnified, Moved, applied};
+use crate::drawing::{Drawing, Magnified, Moved};
 use crate::svg::{Anchor, Svg};
 use crate::text;
 
@@ -23,7 +21,7 @@ const STYLE: &str = concat!(
 
 const WIDTH: f64 = 760.0;
 /// Room around the machine, pixels.
-const MARGIN: (f64, f64) = (70.0, 44.0);
+const MARGIN: [f64; 2] = [70.0, 44.0];
 const TALLEST: f64 = 430.0;
 /// Height of scale and legend.
 const FOOT: f64 = 54.0;
@@ -34,13 +32,13 @@ const AXIS: f64 = 44.0;
 struct Paper {
     camera: Camera,
     scale: f64,
-    shift: (f64, f64),
+    shift: [f64; 2],
 }
 
 impl Paper {
     fn at(&self, p: &Vector3<f64>) -> Point {
         let q = self.camera.project(p) * self.scale;
-        Point::new(q.x + self.shift.0, q.y + self.shift.1, q.z)
+        Point::new(q.x + self.shift[0], q.y + self.shift[1], q.z)
     }
 
     /// A direction of space: as long on paper as it is long there, in pixels.
@@ -115,13 +113,13 @@ fn paint(d: &Drawing<'_>) -> (String, f64) {
     let (low, high) =
         super::scene::corners(points.into_iter()).unwrap_or((Point::zeros(), Point::zeros()));
     let (wide, tall) = ((high.x - low.x).max(1e-12), (high.y - low.y).max(1e-12));
-    let scale = ((WIDTH - 2.0 * MARGIN.0) / wide)
-        .min((TALLEST - 2.0 * MARGIN.1) / tall)
+    let scale = ((WIDTH - 2.0 * MARGIN[0]) / wide)
+        .min((TALLEST - 2.0 * MARGIN[1]) / tall)
         .min(1.3 / scene.unit.max(1e-15));
 
     let words = heading(d, &mut Svg::default());
-    let height = words + (tall * scale + 2.0 * MARGIN.1).max(150.0) + FOOT;
-    svg.rectangle("card", (0.5, 0.5), (WIDTH - 1.0, height - 1.0), 10.0);
+    let height = words + (tall * scale + 2.0 * MARGIN[1]).max(150.0) + FOOT;
+    svg.rectangle("card", [0.5, 0.5], [WIDTH - 1.0, height - 1.0], 10.0);
     heading(d, &mut svg);
     let frame = Frame {
         x: 8.0,
@@ -132,10 +130,10 @@ fn paint(d: &Drawing<'_>) -> (String, f64) {
     let paper = Paper {
         camera,
         scale,
-        shift: (
+        shift: [
             0.5 * WIDTH - 0.5 * (low.x + high.x) * scale,
             frame.y + 0.5 * frame.height - 0.5 * (low.y + high.y) * scale,
-        ),
+        ],
     };
     let mut names = Names::within(frame);
 
@@ -152,7 +150,7 @@ fn paint(d: &Drawing<'_>) -> (String, f64) {
     }
     if let Some(wrench) = &d.applied {
         let tool = flat(&paper.at(&scene.tool.translation.vector));
-        applied::draw(&mut svg, &mut names, tool, wrench, |v| paper.direction(v));
+        symbol::wrench_arrows(&mut svg, &mut names, tool, wrench, |v| paper.direction(v));
     }
     for axes in &axes {
         axes.name(&mut svg, &mut names, &paper);
@@ -166,7 +164,7 @@ fn paint(d: &Drawing<'_>) -> (String, f64) {
     let entries = entries(&scene, d, factor);
     legend(&mut svg, &entries, left, height);
     let description = format!("Drawing: {}", d.title);
-    (svg.document((WIDTH, height), &description, STYLE), factor)
+    (svg.document([WIDTH, height], &description, STYLE), factor)
 }
 
 /// Title and note; returns the height that they take.
@@ -174,7 +172,7 @@ fn heading(d: &Drawing<'_>, svg: &mut Svg) -> f64 {
     let mut base = 27.0;
     for (k, line) in title_lines(&d.title, WIDTH - 36.0).iter().enumerate() {
         base = 27.0 + 18.0 * k as f64;
-        svg.text("title", (18.0, base), Anchor::Start, line);
+        svg.text("title", [18.0, base], Anchor::Start, line);
     }
     let mut line = String::new();
     let mut lines = Vec::new();
@@ -189,7 +187,7 @@ fn heading(d: &Drawing<'_>, svg: &mut Svg) -> f64 {
     lines.push(line);
     for line in lines.iter().filter(|l| !l.is_empty()).take(3) {
         base += 17.5;
-        svg.text("name", (18.0, base), Anchor::Start, line);
+        svg.text("name", [18.0, base], Anchor::Start, line);
     }
     base + 6.0
 }
@@ -330,7 +328,7 @@ fn machine(svg: &mut Svg, names: &mut Names, scene: &Scene, paper: &Paper) {
 
 fn bar(svg: &mut Svg, kind: BarKind, ends: &[Point; 2]) {
     let [a, b] = ends.map(|p| flat(&p));
-    if (a.0 - b.0).hypot(a.1 - b.1) < 0.5 {
+    if (a[0] - b[0]).hypot(a[1] - b[1]) < 0.5 {
         return;
     }
     if matches!(kind, BarKind::Ram | BarKind::Twice) {
@@ -453,7 +451,7 @@ impl Axes {
         let ends = self.ends.map(|p| flat(&paper.at(&p)));
         let origin = ends[0];
         for k in 1..4 {
-            let (dx, dy) = (ends[k].0 - origin.0, ends[k].1 - origin.1);
+            let (dx, dy) = (ends[k][0] - origin[0], ends[k][1] - origin[1]);
             let length = dx.hypot(dy);
             if length < 7.0 {
                 continue;
@@ -461,7 +459,7 @@ impl Axes {
             let beside = Beside {
                 at: ends[k],
                 radius: 0.0,
-                toward: (dx / length, dy / length),
+                toward: [dx / length, dy / length],
             };
             names.write_as(svg, "letter", &beside, ["x", "y", "z"][k - 1]);
         }
@@ -475,14 +473,14 @@ fn scale_bar(svg: &mut Svg, scale: f64, height: f64) -> f64 {
     let pixels = length * 1e-3 * scale;
     let (x, y) = (20.0, height - 24.0);
     for (from, to) in [
-        ((x, y), (x + pixels, y)),
-        ((x, y - 4.0), (x, y + 4.0)),
-        ((x + pixels, y - 4.0), (x + pixels, y + 4.0)),
+        ([x, y], [x + pixels, y]),
+        ([x, y - 4.0], [x, y + 4.0]),
+        ([x + pixels, y - 4.0], [x + pixels, y + 4.0]),
     ] {
         svg.line("scale", from, to);
     }
     let label = format!("{length} mm");
-    svg.text("tick", (x + 0.5 * pixels, y - 8.0), Anchor::Middle, &label);
+    svg.text("tick", [x + 0.5 * pixels, y - 8.0], Anchor::Middle, &label);
     x + pixels + 34.0
 }
 
@@ -549,12 +547,12 @@ fn legend(svg: &mut Svg, entries: &[(Key, String)], left: f64, height: f64) {
             x = left;
             y += 20.0;
         }
-        let middle = (x + 10.0, y);
-        let line = |svg: &mut Svg, class: &str| svg.line(class, (x + 1.0, y), (x + 19.0, y));
+        let middle = [x + 10.0, y];
+        let line = |svg: &mut Svg, class: &str| svg.line(class, [x + 1.0, y], [x + 19.0, y]);
         match entry.0 {
             Key::Elastic => line(svg, "elastic"),
             Key::Rigid => line(svg, "rigid"),
-            Key::Drive => svg.rectangle("drive-key", (x + 3.0, y - 6.0), (14.0, 12.0), 2.0),
+            Key::Drive => svg.rectangle("drive-key", [x + 3.0, y - 6.0], [14.0, 12.0], 2.0),
             Key::Passive => svg.path("joint", &symbol::circle(middle, symbol::JOINT)),
             Key::Spring => svg.path(
                 "coil",
@@ -562,7 +560,7 @@ fn legend(svg: &mut Svg, entries: &[(Key, String)], left: f64, height: f64) {
             ),
             Key::Moved => line(svg, "moved"),
         }
-        svg.text("name", (x + 26.0, y + 4.3), Anchor::Start, &entry.1);
+        svg.text("name", [x + 26.0, y + 4.3], Anchor::Start, &entry.1);
         x += width(entry);
     }
 }

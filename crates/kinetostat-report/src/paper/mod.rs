@@ -17,7 +17,7 @@ pub(crate) mod words;
 
 use crate::ReportError;
 use crate::paper::question::Paper;
-use crate::run::shown::Shown;
+use crate::run::Shown;
 
 impl Paper<'_> {
     /// The paper as one HTML file, without scripts and network.

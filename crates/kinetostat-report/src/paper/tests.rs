@@ -8,7 +8,7 @@ use kinetostat_machining::{
 use crate::paper::content::contents;
 use crate::paper::language::Language;
 use crate::paper::question::{Paper, VerifiedProgram};
-use crate::run::shown::Shown;
+use crate::run::Shown;
 
 /// A run with everything that a paper speaks of, with a feature that is missed and names that are hard to write.
 fn run() -> RunResult {

@@ -1,15 +1,13 @@
-//! Figures along the path: errors, forces and corrections of actuators, stiffness and load factor.
+//! Figures along the path: errors, forces and corrections of actuators, stiffness and load factor; panels under each other.
 
+use kinetostat_machining::Quantity;
 use kinetostat_machining::number::larger;
-use kinetostat_machining::{PointResult, Quantity};
 
-use crate::chart::axis::Span;
+use crate::chart::Span;
 use crate::chart::label::Frame;
-use crate::chart::panel::{Along, Limit, Mark, Panel, Series, Sheet};
-use crate::chart::stack::stack;
+use crate::chart::panel::{Along, Limit, Mark, Panel, Series, Sheet, legend};
 use crate::number::{self, MISSING, Rounding, norm};
-use crate::run::shown::Shown;
-use crate::run::{force_band, uncertainty};
+use crate::run::{Shown, force_band, uncertainty};
 use crate::svg::Svg;
 use crate::text;
 
@@ -37,7 +35,8 @@ pub(crate) fn errors(result: &Shown<'_>, sheet: Sheet) -> String {
     let names: Vec<_> = names.chain(uncertainty::name(result)).collect();
     stacked(
         &panels,
-        (&heights, &names),
+        &heights,
+        &names,
         &along,
         sheet,
         "Distance of the tool from its programmed place along the path",
@@ -98,7 +97,8 @@ pub(crate) fn stiffness(result: &Shown<'_>, sheet: Sheet) -> String {
     };
     stacked(
         &panels,
-        (&heights, &[]),
+        &heights,
+        &[],
         &along,
         sheet,
         "Smallest stiffness against a force and share of the way to buckling along the path",
@@ -151,7 +151,7 @@ pub(crate) fn actuators(result: &Shown<'_>, sheet: Sheet) -> String {
 }
 
 fn before_panel(result: &Shown<'_>, along: &Along, sheet: Sheet) -> Option<Panel> {
-    let worst = number::largest(cutting(result.points).map(|p| norm(&p.error_before_mm)))?;
+    let worst = number::largest(result.cutting_points().map(|p| norm(&p.error_before_mm)))?;
     let bands = [
         force_band::largest_without_compensation(result),
         uncertainty::largest_without_compensation(result),
@@ -186,7 +186,8 @@ fn before_panel(result: &Shown<'_>, along: &Along, sheet: Sheet) -> Option<Panel
 }
 
 fn after_panel(result: &Shown<'_>, along: &Along) -> Option<Panel> {
-    let (place, worst) = cutting(result.points)
+    let (place, worst) = result
+        .cutting_points()
         .filter_map(|p| Some((p, number::drawable(norm(&p.error_after_mm))?)))
         .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
     let (unit, factor) = number::length_unit(worst);
@@ -316,13 +317,6 @@ fn share_spans(panels: &mut [Panel]) {
     }
 }
 
-/// True for points that are drawn in plots along the path.
-fn cutting(points: &[PointResult]) -> impl Iterator<Item = &PointResult> {
-    points
-        .iter()
-        .filter(|p| p.kind != kinetostat_machining::PointKind::Rapid)
-}
-
 fn span_of(values: &[Option<(f64, f64)>]) -> Option<Span> {
     Span::of(values.iter().flatten().map(|value| value.1))
 }
@@ -330,7 +324,8 @@ fn span_of(values: &[Option<(f64, f64)>]) -> Option<Span> {
 /// Panels under each other as an element of the page; empty without panels.
 fn stacked(
     panels: &[Panel],
-    (heights, names): (&[f64], &[(&str, String)]),
+    heights: &[f64],
+    names: &[(&str, String)],
     along: &Along,
     sheet: Sheet,
     description: &str,
@@ -339,7 +334,7 @@ fn stacked(
         return String::new();
     }
     let (svg, height) = stack(panels, heights, along, sheet.width(), names);
-    svg.inline(sheet.class(), (sheet.width(), height), description)
+    svg.inline(sheet.class(), [sheet.width(), height], description)
 }
 
 /// Small panels in two columns, or one on a narrow sheet.
@@ -368,9 +363,59 @@ pub(crate) fn grid(panels: &[Panel], along: &Along, sheet: Sheet, description: &
         };
         // Below the last panel of each column stand the numbers.
         let left = 4.0 + column as f64 * (column_width + 22.0);
+        let room = Span {
+            low: left,
+            high: left + title,
+        };
         let numbered = index + columns >= panels.len();
-        panel.draw(&mut svg, frame, (left, left + title), along, numbered);
+        panel.draw(&mut svg, frame, room, along, numbered);
     }
     let total = rows as f64 * row_height + 34.0;
-    svg.inline(sheet.class(), (sheet.width(), total), description)
+    svg.inline(sheet.class(), [sheet.width(), total], description)
+}
+
+/// Heights of the frames of panels that have none of their own, pixels.
+const HEIGHT: f64 = 130.0;
+
+/// Panels with the heights of their frames on a drawing of a width, and below them what the names of lines mean; gives the
+/// drawing and its height.
+pub(crate) fn stack(
+    panels: &[Panel],
+    heights: &[f64],
+    along: &Along,
+    width: f64,
+    names: &[(&str, String)],
+) -> (Svg, f64) {
+    let mut svg = Svg::default();
+    let heights = || heights.iter().copied().chain(std::iter::repeat(HEIGHT));
+    let gutter = panels
+        .iter()
+        .zip(heights())
+        .map(|(p, h)| p.gutter(h))
+        .fold(0.0, f64::max);
+    let room = Span {
+        low: 4.0,
+        high: width - 4.0,
+    };
+    let mut y = 26.0;
+    for (index, (panel, height)) in panels.iter().zip(heights()).enumerate() {
+        y += panel.more_title(room.length());
+        let frame = Frame {
+            x: gutter,
+            y,
+            width: width - gutter - 14.0,
+            height,
+        };
+        panel.draw(&mut svg, frame, room, along, index + 1 == panels.len());
+        y += height + 42.0;
+    }
+    y += 14.0;
+    let mut entries = names.to_vec();
+    if along.has_rapids() {
+        entries.push(("rapids", "rapid move (nothing is cut)".to_owned()));
+    }
+    if !entries.is_empty() {
+        y += legend(&mut svg, &entries, [gutter, y], width);
+    }
+    (svg, y - 8.0)
 }

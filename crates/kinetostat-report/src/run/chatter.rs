@@ -5,7 +5,7 @@ use minijinja::{Value, context};
 
 use crate::chart::plot::{Plot, PlotLine};
 use crate::number::{self, MISSING, Rounding};
-use crate::run::shown::Shown;
+use crate::run::Shown;
 use crate::text;
 
 /// Maximum number of stretches shown; more are in the result file.

@@ -1,14 +1,17 @@
-//! Charts of the cut along the path: force with its band, its parts, depth and arc in the material, torque and the
-//! spindle's limit.
+//! The cut along the path: charts of the force with its band, its parts, depth and arc in the material, torque and the spindle's
+//! limit; a sentence and the lines with the largest forces; the stock from above.
 
 use kinetostat_machining::{CutPlace, CuttingResult};
+use minijinja::{Value, context};
 
-use crate::chart::axis::Span;
+use crate::chart::Span;
 use crate::chart::panel::{Along, Area, Limit, Mark, Panel, Series, Sheet};
-use crate::chart::stack::stack;
-use crate::number::{self, Rounding};
-use crate::run::shown::Shown;
-use crate::svg::Svg;
+use crate::chart::plot::Plot;
+use crate::chart::section::Section;
+use crate::number::{self, MISSING, Rounding};
+use crate::run::Shown;
+use crate::run::along::stack;
+use crate::svg::{Anchor, Svg};
 
 /// A limit so many times above the curve is said, not drawn: it would press the curve flat.
 const FAR: f64 = 4.0;
@@ -21,7 +24,7 @@ pub(crate) fn figure(result: &Shown<'_>, sheet: Sheet) -> String {
     match charts(cutting, sheet.width()) {
         Some((svg, height)) => svg.inline(
             sheet.class(),
-            (sheet.width(), height),
+            [sheet.width(), height],
             "Force, engagement and torque of the cut along the path",
         ),
         None => String::new(),
@@ -259,4 +262,104 @@ pub(crate) fn percent(share: f64) -> String {
 /// The spread, as in `25 %`.
 pub(crate) fn spread(cutting: &CuttingResult) -> String {
     with_unit(cutting.spread_percent, "%")
+}
+
+/// The section's content; nothing where no force was computed from the cut or nothing is cut.
+pub(crate) fn section(result: &Shown<'_>, figure: Value) -> Value {
+    let Some(cut) = result.cutting.as_ref().filter(|_| figure.is_true()) else {
+        return Value::from(());
+    };
+    let limited = cut.nearest_to_spindle.is_some();
+    let rows: Vec<Value> = cut.worst_lines.iter().map(row).collect();
+    let reduced = (cut.places.len() >= CuttingResult::MAX_PLACES / 2
+        && cut.stations > cut.places.len())
+    .then(|| {
+        format!(
+            "Drawn from {} of {} places: of every stretch those with the largest and the smallest values.",
+            number::count(cut.places.len()),
+            number::count(cut.stations)
+        )
+    });
+    context! { sentence => sentence(cut), figure, rows, limited, reduced }
+}
+
+fn sentence(cut: &CuttingResult) -> String {
+    let band = match cut.spread_percent > 0.0 {
+        true => format!(
+            "Coefficients of tables fit another batch or tool to {}: the band shows it.",
+            spread(cut)
+        ),
+        false => String::new(),
+    };
+    let spindle = match cut
+        .nearest_to_spindle
+        .as_ref()
+        .and_then(CutPlace::share_of_spindle)
+    {
+        Some(share) if share > 1.0 => {
+            " The spindle has not the torque that is needed: see the warnings."
+        }
+        _ => "",
+    };
+    format!(
+        "{band}{spindle} The lines with the largest forces stand below; what was assumed, at the end of the report."
+    )
+}
+
+fn row(p: &CutPlace) -> Value {
+    let digits = |value: f64| number::significant(value, 3, Rounding::Nearest);
+    let parts = [p.force_along_feed_n, p.force_left_n, p.force_up_n];
+    context! {
+        line => number::count(p.line),
+        force => number::fixed(p.force_n(), 1),
+        parts => parts.map(|n| number::fixed(n, 1)).to_vec(),
+        torque => digits(p.torque_n_m),
+        share => p.share_of_spindle().map_or_else(|| MISSING.to_owned(), percent),
+        power => digits(p.power_w),
+        depth => number::fixed(p.depth_mm, 2),
+        arc => number::fixed(p.arc_deg, 0),
+        chip => digits(p.chip_mm),
+    }
+}
+
+/// Width of the picture, that of a section, pixels.
+const WIDTH: f64 = 760.0;
+
+/// Style of bands.
+const AREA: &str = include_str!("../template/area.css");
+
+/// Room around the charts, pixels.
+const MARGIN: f64 = 16.0;
+
+/// The picture as a document; `map` is the stock, where it is known.
+pub(crate) fn engagement(cutting: &CuttingResult, map: Option<&Section>, title: &str) -> String {
+    let mut svg = Svg::default();
+    let mut down = 0.0;
+    if let Some(map) = map {
+        let (drawn, size) = map.fitted();
+        svg.below(0.0, &drawn);
+        down = size[1] + 8.0;
+    }
+    let mut lower = Svg::default();
+    let height = match charts(cutting, WIDTH - 2.0 * MARGIN) {
+        Some((charts, height)) => {
+            lower.at([MARGIN, 12.0], &charts);
+            height + 24.0
+        }
+        None => {
+            lower.text(
+                "name",
+                [0.5 * WIDTH, 60.0],
+                Anchor::Middle,
+                "nothing is cut",
+            );
+            110.0
+        }
+    };
+    let mut card = Svg::default();
+    card.rectangle("card", [0.5, 0.5], [WIDTH - 1.0, height - 1.0], 10.0);
+    svg.below(down, &card);
+    svg.below(down, &lower);
+    let style = [Plot::style(), Section::style(), AREA].concat();
+    svg.document([WIDTH, down + height], title, &style)
 }

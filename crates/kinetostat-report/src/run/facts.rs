@@ -6,8 +6,7 @@ use kinetostat_machining::{
 use minijinja::{Value, context};
 
 use crate::number::{self, MISSING, Rounding, norm};
-use crate::run::meaning;
-use crate::run::shown::Shown;
+use crate::run::{Shown, meaning};
 use crate::text::{self, or_unknown};
 
 /// A key figure: what, how much, and a line that helps to read it.
@@ -133,18 +132,23 @@ pub(crate) fn worst(result: &Shown<'_>) -> Vec<Value> {
         "Where it is farthest off with the written program, worst first, one place of a line.";
     let mut tables = vec![worst_places(
         result,
-        ("The worst places", before),
+        "The worst places",
+        before,
         &result.worst_points,
     )];
     if !result.worst_points_after.is_empty() {
-        let title = ("The worst places with compensation", after);
-        tables.push(worst_places(result, title, &result.worst_points_after));
+        tables.push(worst_places(
+            result,
+            "The worst places with compensation",
+            after,
+            &result.worst_points_after,
+        ));
     }
     tables
 }
 
 /// Rows of a table of points, and the units of its errors before and after.
-fn worst_places(result: &Shown<'_>, (title, order): (&str, &str), points: &[PointResult]) -> Value {
+fn worst_places(result: &Shown<'_>, title: &str, order: &str, points: &[PointResult]) -> Value {
     let shown: Vec<&PointResult> = points.iter().take(10).collect();
     let unit_of = |error: fn(&PointResult) -> f64| {
         number::length_unit(number::largest(shown.iter().map(|p| error(p))).unwrap_or(0.0))

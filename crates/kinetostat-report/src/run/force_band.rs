@@ -2,10 +2,10 @@
 
 use kinetostat_machining::{ForceBand, PointKind, PointResult, Quantity};
 
-use crate::chart::axis::Span;
+use crate::chart::Span;
 use crate::chart::panel::{Along, Area, Panel, Series};
 use crate::number::{self, Rounding, norm};
-use crate::run::shown::Shown;
+use crate::run::Shown;
 
 /// A band that is wider than the error by less than this share of it cannot be seen.
 const VISIBLE: f64 = 0.02;

@@ -3,12 +3,11 @@
 use kinetostat_machining::{ActuatorColumn, PointKind, Quantity};
 use minijinja::{Value, context};
 
-use crate::chart::axis::Span;
+use crate::chart::Span;
 use crate::chart::panel::{Along, Limit, Mark, Panel, Series, Sheet};
-use crate::number;
+use crate::run::Shown;
 use crate::run::along::{MOST_ACTUATORS, grid};
-use crate::run::shown::Shown;
-use crate::text;
+use crate::{number, text};
 
 /// Joint values over the path as small panels, with the limits that the model states; empty where no joint has limits.
 pub(crate) fn figure(result: &Shown<'_>, sheet: Sheet) -> String {

@@ -3,7 +3,7 @@
 use kinetostat_machining::{AssumptionKind, Level, PointKind, RunResult, Warning, WarningCode};
 
 use crate::number;
-use crate::run::shown::in_type;
+use crate::run::in_type;
 
 /// Rotations below this are not worth a sentence, deg.
 const SMALLEST_ROTATION: f64 = 0.000_5;

@@ -6,8 +6,7 @@ use minijinja::{Environment, Value, context};
 use crate::chart::panel::Sheet;
 use crate::chart::section::Section;
 use crate::number::{self, MISSING, typeset};
-use crate::run::shown::Shown;
-use crate::run::{along, chatter, cut_table, cutting, facts, joints, meaning, plan};
+use crate::run::{Shown, along, chatter, cutting, facts, joints, meaning, plan};
 use crate::{text, turns};
 
 /// The name ends in `.html`, which switches automatic escaping on.
@@ -54,7 +53,7 @@ pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
         errors => figure(result, along::errors),
         views => figure(result, plan::views),
         magnification => plan::magnification(result).map(number::setting),
-        cutting => cut_table::cutting(result, figure(result, cutting::figure)),
+        cutting => cutting::section(result, figure(result, cutting::figure)),
         chatter => chatter::section(result),
         actuators => figure(result, along::actuators),
         actuators_left_out => actuators.saturating_sub(along::MOST_ACTUATORS),

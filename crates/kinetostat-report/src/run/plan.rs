@@ -2,19 +2,18 @@
 
 use kinetostat_machining::{PointKind, PointResult};
 
-use crate::chart::axis::{Scale, Span};
-use crate::chart::label::{Frame, Labels, TEXT_SIZE};
-use crate::chart::outline::{Pixel, first_time, path_data};
+use crate::chart::label::{Frame, Labels, widest};
+use crate::chart::outline::{first_time, path_data};
 use crate::chart::panel::{Sheet, legend};
+use crate::chart::{Scale, Span};
 use crate::number::{self, Rounding, norm};
-use crate::run::shown::Shown;
-use crate::svg::{Anchor, Svg};
-use crate::text;
+use crate::run::Shown;
+use crate::svg::{Anchor, Pixel, Svg};
 
 /// Axes of a view: indices into positions and their names.
-type View = (usize, usize);
-const ABOVE: View = (0, 1);
-const SIDE: View = (0, 2);
+type View = [usize; 2];
+const ABOVE: View = [0, 1];
+const SIDE: View = [0, 2];
 const NAMES: [&str; 3] = ["X, mm", "Y, mm", "Z, mm"];
 
 /// Maximum number of whiskers from the path to the magnified place of the tool.
@@ -31,7 +30,7 @@ pub(crate) fn magnification(result: &Shown<'_>) -> Option<f64> {
         .filter_map(|axis| Span::of(result.points.iter().map(|p| p.position_mm[axis])))
         .map(Span::length)
         .fold(0.0, f64::max);
-    let error = number::largest(cutting(result.points).map(|p| norm(&p.error_before_mm)))?;
+    let error = number::largest(result.cutting_points().map(|p| norm(&p.error_before_mm)))?;
     if size <= 0.0 || error <= 0.0 {
         return None;
     }
@@ -69,9 +68,9 @@ pub(crate) fn views(result: &Shown<'_>, sheet: Sheet) -> String {
         // A compact path leaves room beside it.
         Some(side) if !sheet.narrow() && above.ratio() < 1.8 && side.ratio() < 4.0 => {
             let half = 0.5 * (room - left - 20.0);
-            (scale, y) = panels.side_by_side(&mut svg, &side, (left, y), half);
+            (scale, y) = panels.side_by_side(&mut svg, &side, left, y, half);
         }
-        side => (scale, y) = panels.one_above_the_other(&mut svg, side.as_ref(), (left, y), room),
+        side => (scale, y) = panels.one_above_the_other(&mut svg, side.as_ref(), left, y, room),
     }
     y += 62.0;
     y += draw_legend(
@@ -79,12 +78,12 @@ pub(crate) fn views(result: &Shown<'_>, sheet: Sheet) -> String {
         result,
         magnification,
         scale,
-        (left, y),
+        [left, y],
         sheet.width() - right,
     );
     svg.inline(
         sheet.class(),
-        (sheet.width(), y),
+        [sheet.width(), y],
         "The path from above and from the side with the deviation magnified",
     )
 }
@@ -106,7 +105,7 @@ impl Extent {
                 .filter_map(|p| Some(displaced(p, magnification?)?[axis]));
             Span::of(path.chain(moved))
         };
-        let (mut across, mut up) = (span(view.0)?, span(view.1)?);
+        let (mut across, mut up) = (span(view[0])?, span(view[1])?);
         let size = across.length().max(up.length());
         let room = if size > 0.0 { 0.05 * size } else { 1.0 };
         // More room at the sides: labels of the worst points stand there.
@@ -138,11 +137,7 @@ impl Extent {
 
     fn gutter(&self) -> f64 {
         let labels = self.up.ticks(6);
-        let widest = labels
-            .iter()
-            .map(|tick| text::width(&tick.label, TEXT_SIZE))
-            .fold(0.0, f64::max);
-        widest + 36.0
+        widest(labels.iter().map(|tick| tick.label.as_str())) + 36.0
     }
 
     /// The spans that fill a frame with the same scale both ways.
@@ -181,7 +176,8 @@ impl Panels<'_> {
         &self,
         svg: &mut Svg,
         side: &Extent,
-        (left, y): (f64, f64),
+        left: f64,
+        y: f64,
         half: f64,
     ) -> (f64, f64) {
         let scale = self
@@ -209,7 +205,8 @@ impl Panels<'_> {
         &self,
         svg: &mut Svg,
         side: Option<&Extent>,
-        (left, y): (f64, f64),
+        left: f64,
+        y: f64,
         room: f64,
     ) -> (f64, f64) {
         let wanted = side.map_or(f64::INFINITY, |side| side.scale(room, 220.0));
@@ -254,47 +251,47 @@ fn draw(
     let y = Scale::new(up, frame.bottom(), frame.y);
     svg.rectangle(
         "ground",
-        (frame.x, frame.y),
-        (frame.width, frame.height),
+        [frame.x, frame.y],
+        [frame.width, frame.height],
         0.0,
     );
     for tick in across.ticks((frame.width / 80.0).clamp(2.0, 9.0) as usize) {
         let at = x.at(tick.value);
-        svg.line("grid", (at, frame.y), (at, frame.bottom()));
+        svg.line("grid", [at, frame.y], [at, frame.bottom()]);
         svg.text(
             "tick",
-            (at, frame.bottom() + 17.0),
+            [at, frame.bottom() + 17.0],
             Anchor::Middle,
             &tick.label,
         );
     }
     for tick in up.ticks((frame.height / 60.0).clamp(2.0, 8.0) as usize) {
         let at = y.at(tick.value);
-        svg.line("grid", (frame.x, at), (frame.right(), at));
-        svg.text("tick", (frame.x - 7.0, at + 4.2), Anchor::End, &tick.label);
+        svg.line("grid", [frame.x, at], [frame.right(), at]);
+        svg.text("tick", [frame.x - 7.0, at + 4.2], Anchor::End, &tick.label);
     }
-    let (first, second) = extent.view;
-    svg.text("title", (frame.x, frame.y - 10.0), Anchor::Start, title);
+    let [first, second] = extent.view;
+    svg.text("title", [frame.x, frame.y - 10.0], Anchor::Start, title);
     svg.text(
         "name",
-        (frame.x + 0.5 * frame.width, frame.bottom() + 34.0),
+        [frame.x + 0.5 * frame.width, frame.bottom() + 34.0],
         Anchor::Middle,
         NAMES[first],
     );
     svg.text_upwards(
         "name",
-        (
+        [
             frame.x - extent.gutter() + 12.0,
             frame.y + 0.5 * frame.height,
-        ),
+        ],
         NAMES[second],
     );
 
     let place = |at: [f64; 3]| {
-        Some((
+        Some([
             x.at(number::drawable(at[first])?),
             y.at(number::drawable(at[second])?),
-        ))
+        ])
     };
     let points = result.points;
     let programmed: Vec<_> = points.iter().map(|p| place(p.position_mm)).collect();
@@ -332,7 +329,7 @@ fn draw(
 /// Length of a straight piece, pixels.
 fn piece(ends: &[Option<Pixel>]) -> f64 {
     match ends {
-        [Some(a), Some(b)] => (b.0 - a.0).hypot(b.1 - a.1),
+        [Some(a), Some(b)] => (b[0] - a[0]).hypot(b[1] - a[1]),
         _ => 0.0,
     }
 }
@@ -341,8 +338,8 @@ fn piece(ends: &[Option<Pixel>]) -> f64 {
 fn moves(
     points: &[PointResult],
     rapid: bool,
-    place: &impl Fn([f64; 3]) -> Option<(f64, f64)>,
-) -> Vec<Option<(f64, f64)>> {
+    place: &impl Fn([f64; 3]) -> Option<Pixel>,
+) -> Vec<Option<Pixel>> {
     let mut line = Vec::new();
     let mut drawing = false;
     for (index, point) in points.iter().enumerate() {
@@ -371,8 +368,8 @@ fn without_jumps(tips: &[Option<Pixel>], programmed: &[Option<Pixel>]) -> Vec<Op
         if let (Some(before), Some(here)) = (index.checked_sub(1).and_then(|i| tips[i]), *tip)
             && let (Some(from), Some(to)) = (programmed[index - 1], programmed[index])
         {
-            let step = (to.0 - from.0).hypot(to.1 - from.1);
-            let jump = (here.0 - before.0).hypot(here.1 - before.1);
+            let step = (to[0] - from[0]).hypot(to[1] - from[1]);
+            let jump = (here[0] - before[0]).hypot(here[1] - before[1]);
             if jump > LONGER * step + PIXELS {
                 line.push(None);
             }
@@ -386,15 +383,15 @@ fn mark_worst(
     svg: &mut Svg,
     result: &Shown<'_>,
     frame: &Frame,
-    tip: impl Fn(&PointResult) -> Option<(f64, f64)>,
+    tip: impl Fn(&PointResult) -> Option<Pixel>,
 ) {
     let mut labels = Labels::default();
-    let mut marked: Vec<(usize, (f64, f64))> = Vec::new();
-    let middle = (frame.x + 0.5 * frame.width, frame.y + 0.5 * frame.height);
+    let mut marked: Vec<(usize, Pixel)> = Vec::new();
+    let middle = [frame.x + 0.5 * frame.width, frame.y + 0.5 * frame.height];
     for point in &result.worst_points {
         let Some(at) = tip(point) else { continue };
-        let near = |other: &(usize, (f64, f64))| {
-            other.0 == point.line || (other.1.0 - at.0).hypot(other.1.1 - at.1) < 46.0
+        let near = |other: &(usize, Pixel)| {
+            other.0 == point.line || (other.1[0] - at[0]).hypot(other.1[1] - at[1]) < 46.0
         };
         if marked.len() == 3 || marked.iter().any(near) {
             continue;
@@ -404,13 +401,13 @@ fn mark_worst(
         let error = number::length(norm(&point.error_before_mm), 3, Rounding::Nearest);
         svg.marker("mark", at, &format!("{label}: {error} off"));
         labels.reserve(Frame {
-            x: at.0 - 5.0,
-            y: at.1 - 5.0,
+            x: at[0] - 5.0,
+            y: at[1] - 5.0,
             width: 10.0,
             height: 10.0,
         });
         // Outwards, where the path is not in the way.
-        let outwards = (at.0 - middle.0, at.1 - middle.1);
+        let outwards = [at[0] - middle[0], at[1] - middle[1]];
         labels.place(svg, "mark-name", frame, at, outwards, &label);
     }
 }
@@ -420,7 +417,7 @@ fn draw_legend(
     result: &Shown<'_>,
     magnification: Option<f64>,
     scale: f64,
-    from: (f64, f64),
+    from: Pixel,
     right: f64,
 ) -> f64 {
     let mut entries = vec![("feed", "programmed path".to_owned())];
@@ -439,13 +436,13 @@ fn draw_legend(
         // A bar that says how long a deviation is on this drawing.
         let pixels_per_mm = scale * factor;
         let bar = number::round_number(110.0 / pixels_per_mm);
-        let (x, y) = (from.0, from.1 + height);
+        let [x, y] = [from[0], from[1] + height];
         let end = x + bar * pixels_per_mm;
-        svg.line("bar", (x, y - 4.0), (end, y - 4.0));
-        svg.line("bar", (x, y - 8.0), (x, y));
-        svg.line("bar", (end, y - 8.0), (end, y));
+        svg.line("bar", [x, y - 4.0], [end, y - 4.0]);
+        svg.line("bar", [x, y - 8.0], [x, y]);
+        svg.line("bar", [end, y - 8.0], [end, y]);
         let label = format!("this long: {} of deviation", number::length_setting(bar));
-        svg.text("name", (end + 8.0, y), Anchor::Start, &label);
+        svg.text("name", [end + 8.0, y], Anchor::Start, &label);
         height += 19.0;
     }
     height - 8.0
@@ -463,10 +460,6 @@ fn displaced(point: &PointResult, magnification: f64) -> Option<[f64; 3]> {
         )?;
     }
     Some(place)
-}
-
-fn cutting(points: &[PointResult]) -> impl Iterator<Item = &PointResult> {
-    points.iter().filter(|p| p.kind != PointKind::Rapid)
 }
 
 /// True if the path is not flat.

@@ -2,10 +2,10 @@
 
 use kinetostat_machining::{BandPlace, UncertaintyBand};
 
-use crate::chart::axis::Span;
+use crate::chart::Span;
 use crate::chart::panel::{Along, Area, Panel, Series};
 use crate::number::{self, typeset};
-use crate::run::shown::Shown;
+use crate::run::Shown;
 
 /// The band of a compensated program: what is left of the error in nine machines of ten; none where nothing is uncertain.
 pub(crate) fn panel(result: &Shown<'_>, along: &Along) -> Option<Panel> {

@@ -4,23 +4,18 @@ use std::borrow::Cow;
 
 use nalgebra::Vector3;
 
-use crate::expanding::coordinates::map::Map;
-use crate::expanding::coordinates::switch::{Block, Switch};
-use crate::expanding::expanded::Origin;
+use crate::expanding::coordinates::{Block, Map, Switch};
 use crate::expanding::flat::Flat;
-use crate::expanding::options::Dialect;
 use crate::expanding::radius::contour::{Programmed, ProgrammedShape};
 use crate::expanding::radius::geometry::{Axes, in_plane};
-use crate::expanding::radius::motion::{Motion, no_motion};
-use crate::expanding::radius::piece::Shape;
+use crate::expanding::radius::pending::Shape;
 use crate::expanding::radius::stage::Radius;
-use crate::expanding::radius::trouble::Trouble;
-use crate::expanding::radius::words::{divided, other_side};
-use crate::expanding::translate::block::{MotionBlock, Polar};
-use crate::expanding::translate::wrong::Wrong;
+use crate::expanding::radius::words::{Motion, divided, no_motion, other_side};
+use crate::expanding::translate::{MotionBlock, Polar};
+use crate::expanding::{Dialect, Origin, Trouble, Wrong, wrong};
 use crate::path::curve::Curve;
 use crate::path::moves::{Move, MoveKind};
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::options::Units;
 use crate::text::lex::{Spanned, Token, tokens_of};
 
@@ -40,10 +35,6 @@ pub(crate) struct Coordinates<'o> {
     /// The code of motion of the program, where the flat one has another in force: behind mirrored arcs, say, or G80 of Fanuc. Whatever
     /// ends coordinates (G50, G50.1, G69) is in another group, and leaves it as it is.
     code_due: Option<&'static str>,
-}
-
-fn wrong<T>(reason: impl Into<String>, remedy: &'static str) -> Result<T, Trouble> {
-    Err(Trouble::Line((reason.into(), remedy)))
 }
 
 impl<'o> Coordinates<'o> {
@@ -72,7 +63,8 @@ impl<'o> Coordinates<'o> {
         &mut self,
         text: &[u8],
         origin: Origin,
-        (radius, flat): (&mut Radius<'o>, &mut Flat<'o>),
+        radius: &mut Radius<'o>,
+        flat: &mut Flat<'o>,
         dialect: Dialect,
     ) -> Result<(), Trouble> {
         // LinuxCNC has none of these words.
@@ -85,7 +77,7 @@ impl<'o> Coordinates<'o> {
         }
         let block = Block::of(text)?;
         if let Some(switch) = block.switch {
-            return self.switch(switch, origin, (radius, flat));
+            return self.switch(switch, origin, radius, flat);
         }
         let mut map = self.map;
         map.take_away(block.ends)?;
@@ -96,7 +88,7 @@ impl<'o> Coordinates<'o> {
             if map.turn.is_none() {
                 self.to_state = [0, 1, 2].map(|axis| self.to_state[axis] && !ended(axis));
             }
-            self.become_(map, origin, (radius, flat))?;
+            self.become_(map, origin, radius, flat)?;
         }
         let rest = self.with_code_due(block.rest.trim_ascii_end());
         match (rest.as_ref(), &mut self.programmed) {
@@ -157,7 +149,8 @@ impl<'o> Coordinates<'o> {
         &mut self,
         map: Map,
         origin: Origin,
-        (radius, flat): (&mut Radius<'o>, &mut Flat<'o>),
+        radius: &mut Radius<'o>,
+        flat: &mut Flat<'o>,
     ) -> Result<(), Trouble> {
         self.map = map;
         if map.is_nothing() {
@@ -194,7 +187,8 @@ impl<'o> Coordinates<'o> {
         &mut self,
         switch: Switch,
         origin: Origin,
-        (radius, flat): (&mut Radius<'o>, &mut Flat<'o>),
+        radius: &mut Radius<'o>,
+        flat: &mut Flat<'o>,
     ) -> Result<(), Trouble> {
         refuse_contour(radius)?;
         let state = self.interpreter().unwrap_or(&flat.interpreter);
@@ -303,7 +297,7 @@ impl<'o> Coordinates<'o> {
             }
         }
         self.to_state = to_state;
-        self.become_(map, origin, (radius, flat))
+        self.become_(map, origin, radius, flat)
     }
 
     /// A block in other coordinates than the machine's.

@@ -1,7 +1,7 @@
 //! Values of expressions.
 
-use crate::expanding::expression::tree::{Expression, Function, Operator, Parameter};
-use crate::expanding::options::Dialect;
+use crate::expanding::Dialect;
+use crate::expanding::expression::{Expression, Function, Operator, Parameter};
 
 /// Largest difference of two equal numbers (LinuxCNC 2.9, `TOLERANCE_EQUAL`; later ones have 1e-6).
 const EQUAL: f64 = 1e-4;

@@ -1,6 +1,6 @@
 //! Reads values, parameters and expressions out of a line.
 
-use crate::expanding::expression::tree::{Expression, Function, Operator, Parameter};
+use crate::expanding::expression::{Expression, Function, Operator, Parameter};
 
 /// Brackets and signs within each other, more than any program has.
 const DEEPEST: usize = 64;

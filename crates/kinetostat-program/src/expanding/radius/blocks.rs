@@ -1,15 +1,14 @@
 //! A block while compensation is on, and one behind G40.
 
-use crate::expanding::expanded::Origin;
 use crate::expanding::flat::Flat;
 use crate::expanding::radius::contour::{Contour, Programmed};
 use crate::expanding::radius::geometry::in_plane;
-use crate::expanding::radius::machine::to_machine_place;
-use crate::expanding::radius::motion::{Motion, no_motion};
-use crate::expanding::radius::pending::write;
-use crate::expanding::radius::piece::Shape;
-use crate::expanding::radius::trouble::Trouble;
-use crate::expanding::radius::words::Words;
+use crate::expanding::radius::pending::{Shape, write};
+use crate::expanding::radius::words::{Motion, Words, no_motion};
+use crate::expanding::translate::{MotionBlock, Polar};
+use crate::expanding::{Origin, Trouble, Wrong};
+use crate::number::number;
+use crate::reading::options::Units;
 
 /// A block of plain words, the switch of compensation taken out.
 #[derive(Clone, Copy)]
@@ -123,4 +122,52 @@ pub(crate) fn behind(
         flat.add(&after, origin)?;
     }
     Ok(Next::Together)
+}
+
+/// The block with all axes of the plane; none where it is no such rapid.
+///
+/// The axes of the plane that it does not name go to the place that the program counts from (LinuxCNC, tried): they are written
+/// too, and so the machine's zero must be known.
+pub(crate) fn to_machine_place(
+    text: &[u8],
+    words: &Words,
+    programmed: &Flat<'_>,
+) -> Result<Option<String>, Wrong> {
+    let block = MotionBlock::of(text, Polar::default());
+    if !words.is_in_machine_coordinates() || !block.has_place() {
+        return Ok(None);
+    }
+    let state = &programmed.interpreter;
+    let axes = state.plane_axes();
+    let letters = axes.map(|axis| b"XYZ"[axis]);
+    let Some(zero) = programmed.machine_zero_mm() else {
+        return Err((
+            "G53 behind G40: the tool is beside the place that the program counts from, and where that is in the machine is not known".to_owned(),
+            "move with G0 or G1 first, or give the machine's zero (--machine-zero-mm)",
+        ));
+    };
+    let unit = state.units().map_or(1.0, Units::mm_per_unit);
+    let mut made = String::from_utf8_lossy(text.trim_ascii_end()).into_owned();
+    for (axis, letter) in axes.into_iter().zip(letters).take(2) {
+        if block.value(letter).is_some() {
+            continue;
+        }
+        let Some(place) = state
+            .place_mm(axis)
+            .filter(|_| !state.has_tool_length_along(axis))
+        else {
+            return Err((
+                format!(
+                    "where the tool is along {} is not known behind G40",
+                    char::from(letter)
+                ),
+                "move with G0 or G1 first",
+            ));
+        };
+        let value = (place - zero[axis]) / unit;
+        // Before a comment: the words belong to the block.
+        let end = made.find(['(', ';']).unwrap_or(made.len());
+        made.insert_str(end, &format!(" {}{} ", char::from(letter), number(value)));
+    }
+    Ok(Some(made.trim_end().to_owned()))
 }

@@ -1,13 +1,9 @@
 //! The way of the tool's centre beside a contour, move by move.
 
-use crate::expanding::expanded::Origin;
 use crate::expanding::flat::Flat;
-use crate::expanding::options::Dialect;
 use crate::expanding::radius::geometry::{Axes, Point, Sense, Side, in_plane};
-use crate::expanding::radius::pending::Pending;
-use crate::expanding::radius::piece::{Piece, Shape};
-use crate::expanding::radius::trouble::Trouble;
-use crate::expanding::translate::wrong::Wrong;
+use crate::expanding::radius::pending::{Pending, Piece, Shape};
+use crate::expanding::{Dialect, Origin, Trouble, Wrong};
 use crate::path::curve::Curve;
 use crate::path::moves::{FeedMode, Move, MoveKind};
 

@@ -1,10 +1,13 @@
-//! The radius of the tool.
+//! The radius of the tool, and the contour that begins with it.
 
 use std::collections::BTreeMap;
 
-use crate::expanding::radius::geometry::Side;
+use crate::expanding::radius::contour::Contour;
+use crate::expanding::radius::geometry::{Point, Side};
 use crate::expanding::radius::words::{Switch, Words};
-use crate::expanding::translate::wrong::Wrong;
+use crate::expanding::{Dialect, Wrong};
+use crate::reading::interpreting::Interpreter;
+use crate::reading::options::Units;
 
 /// A number this near to a whole one is one (LinuxCNC).
 const WHOLE: f64 = 1e-4;
@@ -109,4 +112,36 @@ fn whole(value: f64) -> Option<u32> {
     let near = value.round();
     let is_whole = (value - near).abs() < WHOLE && (0.0..1e9).contains(&near);
     is_whole.then_some(near as u32)
+}
+
+/// The contour that begins; none for a tool without a radius.
+pub(crate) fn begin(
+    switch: Switch,
+    spindle: InSpindle,
+    diameters_mm: &BTreeMap<u32, f64>,
+    state: &Interpreter<'_>,
+    dialect: Dialect,
+) -> Result<Option<Contour>, Wrong> {
+    let [first, second, across] = state.plane_axes();
+    if across == 0 {
+        return Err((
+            "there is no cutter radius compensation in the plane YZ (G19): LinuxCNC refuses it too"
+                .to_owned(),
+            "write G17 or G18, or let the CAM system write the centre line of the tool",
+        ));
+    }
+    let unit = state.units().map(Units::mm_per_unit);
+    let places = [first, second].map(|axis| state.place_mm(axis));
+    let (Some(unit), [Some(x), Some(y)]) = (unit, places) else {
+        return Err((
+            "where the tool is before cutter radius compensation is not known".to_owned(),
+            match across {
+                2 => "state units, X and Y before it",
+                _ => "state units, Z and X before it",
+            },
+        ));
+    };
+    let found = side_and_radius(switch, spindle, diameters_mm, unit)?;
+    let found = found.filter(|(_, radius)| *radius > 0.0);
+    Ok(found.map(|(side, radius)| Contour::new(side, radius, Point::new(x, y), dialect)))
 }

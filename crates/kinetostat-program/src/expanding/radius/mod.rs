@@ -5,28 +5,17 @@
 //! and its interpreter; what it refuses is refused, and so is what would cut into the contour or hang on the last digit of its
 //! arithmetic. Like LinuxCNC it looks at neighbouring blocks only: a contour that meets itself further on is not seen.
 //!
-//! - `geometry`, `corner`, `meeting`: the plane's geometry, no state;
-//! - `contour`: a contour and the tool beside it; `follow` leads it along by `entry`, `straight`, `arc`;
-//! - `pending`: the last motion, whose end the next corner may still move, and what came behind it;
-//! - `piece`: a motion as a block of the flat program;
-//! - `words`, `cutter`: which words a block may have, which radius they mean;
-//! - `stage`: on, off, and between G40 and the next move, by `begin` and `blocks`.
+//! - `geometry`: the plane's geometry, corners and meeting points, no state;
+//! - `contour`: a contour and the tool beside it; `follow` leads it along by its entry, straight moves and arcs;
+//! - `pending`: motions as blocks of the flat program; the last one, whose end the next corner may still move, and what came behind it;
+//! - `words`, `cutter`: which words a block may have, which radius they mean, and the contour that begins;
+//! - `stage`: on, off, and between G40 and the next move, by `blocks`.
 
-mod arc;
-mod begin;
 mod blocks;
 pub(crate) mod contour;
-mod corner;
 mod cutter;
-mod entry;
 mod follow;
 pub(crate) mod geometry;
-mod machine;
-mod meeting;
-pub(crate) mod motion;
-mod pending;
-pub(crate) mod piece;
+pub(crate) mod pending;
 pub(crate) mod stage;
-mod straight;
-pub(crate) mod trouble;
 pub(crate) mod words;

@@ -6,17 +6,13 @@
 
 use std::collections::BTreeMap;
 
-use crate::expanding::expanded::Origin;
 use crate::expanding::flat::Flat;
-use crate::expanding::options::{Dialect, ExpandOptions};
-use crate::expanding::radius::begin::begin;
 use crate::expanding::radius::blocks::{Block, First, Next, behind, within};
 use crate::expanding::radius::contour::Contour;
-use crate::expanding::radius::cutter::InSpindle;
-use crate::expanding::radius::trouble::Trouble;
+use crate::expanding::radius::cutter::{InSpindle, begin};
 use crate::expanding::radius::words::{Switch, Words, asks_behind, words};
-use crate::expanding::translate::wrong::Wrong;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::expanding::{Dialect, ExpandOptions, Origin, Trouble, Wrong};
+use crate::reading::interpreting::Interpreter;
 use crate::reading::options::Units;
 
 /// State of the compensation.
@@ -144,8 +140,8 @@ impl<'o> Radius<'o> {
         }
         let begins_beside = matches!(self.state, State::Beside);
         let diameters = &self.diameters_mm;
-        let state = (self.interpreter(flat), self.dialect);
-        let begun = begin(switch, self.spindle, diameters, state)?;
+        let state = self.interpreter(flat);
+        let begun = begin(switch, self.spindle, diameters, state, self.dialect)?;
         self.state = match begun {
             Some(contour) => {
                 self.programmed.get_or_insert_with(|| flat.following());

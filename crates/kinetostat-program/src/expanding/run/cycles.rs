@@ -1,12 +1,15 @@
-//! Blocks of canned cycles, and of arcs of many turns, while a program runs.
+//! Blocks that a running program translates to plain ones: canned cycles, arcs of many turns, polar moves, splines, rigid taps.
 
 use crate::error::ProgramError;
-use crate::expanding::options::Dialect;
-use crate::expanding::run::rigid::Rigid;
-use crate::expanding::run::runner::Runner;
-use crate::expanding::translate::block::MotionBlock;
+use crate::expanding::Dialect;
+use crate::expanding::run::{Rigid, Runner};
 use crate::expanding::translate::cycle::cycle;
+use crate::expanding::translate::spline::{Spline, is_spline, spline};
 use crate::expanding::translate::turns::turns;
+use crate::expanding::translate::{MotionBlock, Place};
+use crate::number::number;
+use crate::path::moves::FeedMode;
+use crate::path::spindle::{SpeedMode, SpindleRotation};
 use crate::text::lex::{Spanned, tokens_of};
 
 /// Meaning of a block without a code while a cycle is in force.
@@ -132,8 +135,8 @@ impl Runner<'_> {
             ));
         }
         let rigid = self.rigid.as_ref().map(|rigid| rigid.text.as_str());
-        let state = (self.state(), self.options.dialect, rigid);
-        let made = cycle(code, block, self.cycle, state);
+        let dialect = self.options.dialect;
+        let made = cycle(code, block, self.cycle, self.state(), dialect, rigid);
         let (texts, cycle) = made.map_err(|(reason, remedy)| self.refuse(&reason, remedy))?;
         let stays = is_fanuc && cycle.is_the_controls(self.rigid.is_some());
         if stays && self.coordinates.interpreter().is_some() {
@@ -153,6 +156,212 @@ impl Runner<'_> {
         if is_peck && !std::mem::replace(&mut self.pecks_warned, true) {
             self.flat.warn("each peck of G73 and G83 begins 0.254 mm (0.010 inch) above the last depth here, as LinuxCNC has it; on Fanuc's controllers parameters 5114 and 5115 say how far above. The depths are the same");
         }
+        self.add_rest(&block.after)
+    }
+}
+
+/// Moves whose ends are given by a radius and an angle.
+impl Runner<'_> {
+    /// A straight move or an arc whose end is given by a radius and an angle.
+    pub fn polar(&mut self, block: &MotionBlock) -> Result<(), ProgramError> {
+        let remedy = "write the place with X and Y";
+        if block.value(b'X').or(block.value(b'Y')).is_some() {
+            return Err(self.refuse("X or Y beside polar words", remedy));
+        }
+        self.add_rest(&block.before)?;
+        let state = self.state();
+        if state.plane_axes()[2] != 2 {
+            return Err(self.refuse(
+                "polar words outside the plane XY (G17)",
+                "write G17 before it, or the place with X, Y and Z",
+            ));
+        }
+        let (x, y) = match (state.coordinate(0), state.coordinate(1)) {
+            (Ok(x), Ok(y)) => (x, y),
+            (Err(reason), _) | (_, Err(reason)) => {
+                return Err(self.refuse(&reason, "state X and Y before polar words"));
+            }
+        };
+        let incremental = state.is_incremental();
+        let end = block.polar.place([x, y], incremental);
+        let end = end.map_err(|reason| self.refuse(reason, remedy))?;
+        let words = match incremental {
+            true => [end[0] - x, end[1] - y],
+            false => end,
+        };
+        let mut text = block.motion_words();
+        text.push_str(&format!("X{} Y{}", number(words[0]), number(words[1])));
+        text.push_str(&block.other_words());
+        self.add(text.as_bytes())?;
+        self.add_rest(&block.after)
+    }
+}
+
+/// Blocks of splines while a program runs.
+impl Runner<'_> {
+    /// The code of the spline that a block makes or goes on with, in tenths; `None` if it is no spline.
+    pub fn code_of_spline(&self, block: &MotionBlock) -> Option<u32> {
+        let goes_on = block.motion.is_none() && !block.wants_axes;
+        let has_words = block.has_place() || block.value(b'P').is_some();
+        match (block.motion, &self.spline) {
+            // G5.1 Q1 and G5 P10000 are contour modes of Fanuc: the reader carries them.
+            (Some(_), _) if self.options.dialect == Dialect::Fanuc => None,
+            (Some(code @ (50 | 51)), _) => block.has_place().then_some(code),
+            (Some(code), _) => Some(code).filter(|code| is_spline(*code)),
+            (None, Some(Spline::Cubic { .. })) if goes_on && has_words => Some(50),
+            (None, Some(Spline::Quadratic)) if goes_on && has_words => Some(51),
+            (None, Some(Spline::Open { .. })) if goes_on && has_words => Some(52),
+            (None, _) => None,
+        }
+    }
+
+    /// A spline as its chords.
+    pub fn spline(&mut self, code: u32, block: &MotionBlock) -> Result<(), ProgramError> {
+        if self.radius.refuses_cycles().is_some() {
+            return Err(self.refuse(
+                "a spline cannot be run while cutter radius compensation is on, or before the first move behind G40",
+                "write G40 and a move before it",
+            ));
+        }
+        if block.motion.is_none() && code != 52 {
+            return Err(self.refuse(
+                "a spline goes on without its code: LinuxCNC wants G5 and G5.1 in each block",
+                "write the code into the block",
+            ));
+        }
+        self.add_rest(&block.before)?;
+        let state = self.state();
+        if state.plane_axes() != [0, 1, 2] {
+            return Err(self.refuse("a spline outside the plane XY", "write G17 before it"));
+        }
+        if state.feed_mode() == FeedMode::InverseTime {
+            return Err(self.refuse(
+                "a spline with the feed of inverse time (G93)",
+                "write G94 and F before it",
+            ));
+        }
+        let mut place = Place::of(state);
+        let [Some(x), Some(y), _] = place.at else {
+            return Err(self.refuse(
+                "where the tool is before the spline is not known",
+                "state X and Y before it, or give the start position",
+            ));
+        };
+        let before = self.spline.take();
+        let made = spline(code, block, before, [x, y], place.incremental);
+        let made = made.map_err(|(reason, remedy)| self.refuse(&reason, remedy))?;
+        for end in made.ends {
+            if let Some(text) = place.go("G1", [Some(end[0]), Some(end[1]), None]) {
+                self.add(text.as_bytes())?;
+            }
+        }
+        self.spline = made.next;
+        if code == 53 {
+            // No motion is in force after a NURBS.
+            self.add(b"G80")?;
+        }
+        self.add_rest(&block.after)
+    }
+
+    /// Ends the spline when another motion begins.
+    pub fn leave_spline(&mut self) -> Result<(), ProgramError> {
+        match self.spline.take() {
+            Some(Spline::Open { .. }) => Err(self.refuse(
+                "the NURBS before it is not ended: its control points would be lost",
+                "write G5.3 behind its last control point",
+            )),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// G33.1: a rigid tap, as a feed to its end with the pitch times the speed, and back with the spindle reversed.
+///
+/// That is how G84 is written; the tool must float in its holder, which a warning says. LinuxCNC ties the feed to the spindle
+/// (`docs/src/gcode/g-code.adoc`, G33.1) and makes one canonical call of it, `rigid_tap`: to the end and back.
+impl Runner<'_> {
+    /// A block with G33.1.
+    pub fn rigid_tap(&mut self, block: &MotionBlock) -> Result<(), ProgramError> {
+        if self.radius.refuses_cycles().is_some() {
+            return Err(self.refuse(
+                "a thread cannot be tapped while cutter radius compensation is on, or before the first move behind G40",
+                "write G40 and a move before it",
+            ));
+        }
+        self.add_rest(&block.before)?;
+        let state = self.state();
+        let spindle = state.spindle();
+        let [own, other] = match spindle.rotation {
+            SpindleRotation::Clockwise => ["M3", "M4"],
+            SpindleRotation::CounterClockwise => ["M4", "M3"],
+            SpindleRotation::Stopped => {
+                return Err(self.refuse(
+                    "G33.1 needs a spindle that turns",
+                    "write M3 or M4 before it",
+                ));
+            }
+        };
+        let pitch = block
+            .value(b'K')
+            .filter(|pitch| *pitch > 0.0)
+            .ok_or_else(|| {
+                self.refuse(
+                    "G33.1 has no pitch above zero (K)",
+                    "write K, the way in a turn",
+                )
+            })?;
+        let speed = spindle
+            .speed
+            .filter(|_| spindle.mode == SpeedMode::Constant);
+        let feed = match (state.feed_mode(), speed) {
+            (FeedMode::PerRevolution, _) => pitch,
+            (FeedMode::PerMinute, Some(speed)) if speed > 0.0 => pitch * speed,
+            _ => {
+                return Err(self.refuse(
+                    "the feed of G33.1 is its pitch times the speed of the spindle, which is not known here",
+                    "write S in turns a minute (G97), and G94 or G95, before it",
+                ));
+            }
+        };
+        let faster = block
+            .value(b'I')
+            .map_or(1.0, |scale| if scale > 1.0 { scale } else { 1.0 });
+        let before = state.feed_in_units();
+        let mut place = Place::of(state);
+        let start = place.at;
+        let mut end = start;
+        for (axis, letter) in (0..).zip(*b"XYZ") {
+            let Some(word) = block.value(letter) else {
+                continue;
+            };
+            end[axis] = match (place.incremental, start[axis]) {
+                (_, None) => {
+                    return Err(self.refuse(
+                        "where the tool is before G33.1 is not known",
+                        "state X, Y and Z before it, or give the start position",
+                    ));
+                }
+                (true, Some(at)) => Some(at + word),
+                (false, _) => Some(word),
+            };
+        }
+        let there = place.go("G1", end);
+        let back = place.go("G1", start);
+        let (Some(there), Some(back)) = (there, back) else {
+            return Err(self.refuse("G33.1 goes nowhere", "write the end of the thread"));
+        };
+        let fed = |scale: f64| format!(" F{}", number(feed * scale));
+        let mut texts = vec![there + &fed(1.0), "M5".to_owned(), other.to_owned()];
+        texts.push(back + &fed(faster));
+        texts.extend(["M5".to_owned(), own.to_owned()]);
+        texts.extend(before.map(|feed| format!("F{}", number(feed))));
+        // LinuxCNC takes no bare places behind it.
+        texts.push("G80".to_owned());
+        for text in texts {
+            self.add(text.as_bytes())?;
+        }
+        self.no_feed |= before.is_none();
+        self.flat.warn("a thread is tapped here (G33.1) by a feed and a reversed spindle, as G84 does it: the tool must float in its holder");
         self.add_rest(&block.after)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::expanding::options::Dialect;
+use crate::expanding::Dialect;
 use crate::expanding::run::modal::Context;
 
 /// Numbered parameters that are a subprogram's own: 1 to 30.

@@ -1,12 +1,12 @@
 //! Branches and loops of O words.
 
 use crate::error::ProgramError;
-use crate::expanding::expression::tree::Expression;
-use crate::expanding::options::Dialect;
+use crate::expanding::Dialect;
+use crate::expanding::expression::Expression;
+use crate::expanding::run::Runner;
 use crate::expanding::run::frame::{Label, Loop, LoopKind};
-use crate::expanding::run::runner::Runner;
 use crate::expanding::run::source::constant;
-use crate::expanding::source::statement::{Statement, Structure};
+use crate::expanding::source::{Statement, Structure};
 
 const STRUCTURE: &str = "each O word of a branch or loop needs its end with the same number";
 

@@ -4,10 +4,10 @@
 //! #26 (Fanuc, Operator's Manual B-63534EN, section 15.4, argument specification I). Letters that are not there are vacant.
 
 use crate::error::ProgramError;
-use crate::expanding::expression::tree::Parameter;
-use crate::expanding::options::Dialect;
+use crate::expanding::Dialect;
+use crate::expanding::expression::Parameter;
+use crate::expanding::run::Runner;
 use crate::expanding::run::frame::{Frame, Locals, Opened};
-use crate::expanding::run::runner::Runner;
 use crate::text::lex::{Spanned, Token, tokens_of};
 
 /// Maximum repeats of a call.

@@ -6,10 +6,10 @@
 
 use crate::path::moves::FeedMode;
 use crate::path::spindle::SpindleRotation;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::options::Units;
 use crate::text::lex::{Spanned, Token};
-use crate::text::line::tenths;
+use crate::text::tenths;
 
 /// Modal functions that the path does not know.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,10 +1,10 @@
 //! Blocks with M70, M71, M72 or M73, and the ends of subprograms that put modes back.
 
 use crate::error::ProgramError;
+use crate::expanding::run::Runner;
 use crate::expanding::run::modal::{Context, Saved};
-use crate::expanding::run::runner::Runner;
 use crate::text::lex::{Spanned, Token, tokens_of};
-use crate::text::line::tenths;
+use crate::text::tenths;
 
 /// Remedy for modes that cannot be put back.
 const REMEDY: &str = "name it before M70 or M73, or write the modes as words and leave out M72";

@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::expanding::expression::tree::Expression;
+use crate::expanding::expression::Expression;
 use crate::expanding::run::frame::Label;
-use crate::expanding::source::read::{Fault, lines};
-use crate::expanding::source::statement::{OLabel, SourceLine, Statement, Structure};
+use crate::expanding::source::{Fault, OLabel, SourceLine, Statement, Structure, lines};
 
 /// Source of the files of subprograms: this crate reads none.
 pub trait Subprograms {

@@ -1,12 +1,10 @@
 //! Canned cycles: what of a cycle holds for the blocks that follow, and the places of its holes.
 
-use crate::expanding::number::number;
-use crate::expanding::options::Dialect;
-use crate::expanding::translate::block::MotionBlock;
 use crate::expanding::translate::holes::{Hole, Spindle};
-use crate::expanding::translate::moves::Place;
-use crate::expanding::translate::wrong::Wrong;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::expanding::translate::{MotionBlock, Place};
+use crate::expanding::{Dialect, Wrong, wrong};
+use crate::number::number;
+use crate::reading::interpreting::Interpreter;
 
 /// Maximum repeats of a cycle.
 const MOST_REPEATS: f64 = 1e5;
@@ -69,10 +67,6 @@ impl Cycle {
     }
 }
 
-fn wrong<T>(reason: impl Into<String>, remedy: &'static str) -> Result<T, Wrong> {
-    Err((reason.into(), remedy))
-}
-
 /// True if a code (in tenths) is a canned cycle.
 pub(crate) fn is_cycle(code: u32) -> bool {
     matches!(code, 730 | 740 | 760) || (810..=890).contains(&code)
@@ -83,7 +77,9 @@ pub(crate) fn cycle(
     code: u32,
     block: &MotionBlock,
     before: Option<Cycle>,
-    (state, dialect, rigid): (&Interpreter<'_>, Dialect, Option<&str>),
+    state: &Interpreter<'_>,
+    dialect: Dialect,
+    rigid: Option<&str>,
 ) -> Result<(Vec<String>, Cycle), Wrong> {
     let [first, second, normal] = state.plane_axes();
     let letters = [first, second, normal].map(|axis| b"XYZ"[axis]);
@@ -101,7 +97,9 @@ pub(crate) fn cycle(
         code,
         block,
         before,
-        (letters[2], height, incremental),
+        letters[2],
+        height,
+        incremental,
         dialect,
     )?;
     let same = before.filter(|cycle| cycle.code == code || dialect == Dialect::Fanuc);
@@ -127,7 +125,7 @@ pub(crate) fn cycle(
     cycle.levels = match from_back {
         // It goes back to where it began.
         true => [cycle.initial; 2],
-        false => levels_of(&cycle, same, (block, letters[2]), dialect)?,
+        false => levels_of(&cycle, same, block, letters[2], dialect)?,
     };
     let [level, bottom] = cycle.levels;
     if dialect != Dialect::LinuxCnc && same.is_some_and(|one| one.incremental != incremental) {
@@ -223,7 +221,9 @@ fn words_of(
     code: u32,
     block: &MotionBlock,
     before: Option<Cycle>,
-    (depth_letter, height, incremental): (u8, f64, bool),
+    depth_letter: u8,
+    height: f64,
+    incremental: bool,
     dialect: Dialect,
 ) -> Result<Cycle, Wrong> {
     let same = before.filter(|cycle| cycle.code == code);
@@ -294,7 +294,8 @@ fn repeats_of(block: &MotionBlock, dialect: Dialect) -> Result<usize, Wrong> {
 fn levels_of(
     cycle: &Cycle,
     same: Option<Cycle>,
-    (block, depth_letter): (&MotionBlock, u8),
+    block: &MotionBlock,
+    depth_letter: u8,
     dialect: Dialect,
 ) -> Result<[f64; 2], Wrong> {
     let Cycle {

@@ -1,10 +1,9 @@
 //! The motions of one hole, from its retract level on.
 
-use crate::expanding::number::number;
-use crate::expanding::options::Dialect;
-use crate::expanding::translate::wrong::Wrong;
+use crate::expanding::{Dialect, Wrong};
+use crate::number::number;
 use crate::path::spindle::SpindleRotation;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 
 /// Pecks of one hole.
 const MOST_PECKS: f64 = 1e5;

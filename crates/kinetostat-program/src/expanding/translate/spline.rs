@@ -4,8 +4,8 @@
 //! The curve is a B-spline with knots one apart, closed at both ends, and weights. Source: LinuxCNC, `docs/src/gcode/g-code.adoc`,
 //! G5 to G5.3; L. Piegl and W. Tiller, The NURBS Book, algorithms A2.1 and A4.1.
 
-use crate::expanding::translate::block::MotionBlock;
-use crate::expanding::translate::wrong::Wrong;
+use crate::expanding::Wrong;
+use crate::expanding::translate::MotionBlock;
 
 /// Chords for each control point.
 const CHORDS: usize = 15;
@@ -52,7 +52,8 @@ pub(crate) fn spline(
     code: u32,
     block: &MotionBlock,
     before: Option<Spline>,
-    (start, incremental): ([f64; 2], bool),
+    start: [f64; 2],
+    incremental: bool,
 ) -> Result<Made, Wrong> {
     check(code, block, before.as_ref())?;
     let end = [(0, b'X'), (1, b'Y')].map(|(axis, letter)| match block.value(letter) {

@@ -5,21 +5,16 @@
 
 use std::f64::consts::TAU;
 
-use crate::expanding::number::number;
-use crate::expanding::translate::block::MotionBlock;
-use crate::expanding::translate::moves::Place;
-use crate::expanding::translate::wrong::Wrong;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::expanding::translate::{MotionBlock, Place};
+use crate::expanding::{Wrong, wrong};
+use crate::number::number;
+use crate::reading::interpreting::Interpreter;
 
 /// Maximum turns of one block.
 const MOST_TURNS: f64 = 1e5;
 
 /// Ends nearer than this share of the radius are one place: a full circle.
 const SAME: f64 = 1e-9;
-
-fn wrong<T>(reason: &str, remedy: &'static str) -> Result<T, Wrong> {
-    Err((reason.to_owned(), remedy))
-}
 
 /// True if a block is an arc with P.
 pub(crate) fn counts_turns(block: &MotionBlock, state: &Interpreter<'_>) -> bool {

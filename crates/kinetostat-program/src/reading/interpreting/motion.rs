@@ -1,4 +1,4 @@
-//! G0 to G3: where a block goes, and on which way.
+//! G0 to G3: where a block goes, and on which way; and places that are the machine's (tool lengths, G28, G30, G53).
 
 use nalgebra::Vector3;
 
@@ -9,7 +9,9 @@ use crate::reading::arc::{self, ArcFrame};
 use crate::reading::beside::{COORDINATES, check_codes_beside_motion};
 use crate::reading::block::Block;
 use crate::reading::directions::with_circle;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
+use crate::reading::machine::MachinePlace;
+use crate::reading::options::Units;
 use crate::reading::places::Cause;
 
 /// Coordinates beyond this are no machine's, in mm.
@@ -50,17 +52,16 @@ impl Interpreter<'_> {
         let start = self.places.position;
         let known_before = self.places.known;
         let end = self.end_of_move(block, kind, mm_per_unit)?;
-        let ends = (start, end);
-        let curve = self.curve_of_move(block, (motion, mm_per_unit), ends, known_before)?;
+        let curve = self.curve_of_move(block, motion, mm_per_unit, start, end, known_before)?;
         self.places.position = end;
         let angles = self.rotary.angles(&self.modes);
         let circle = self
             .rotary
-            .take_direction(block, (kind, motion), &mut self.modes)?;
+            .take_direction(block, kind, motion, &mut self.modes)?;
         let extra = self.modes.extra.read(block, self.modes.incremental);
         let tool_turn = self
             .rotary
-            .turn_of_move(block, kind, (&angles, &self.modes), &mut self.places)?
+            .turn_of_move(block, kind, &angles, &self.modes, &mut self.places)?
             .map(|turn| with_circle(turn, circle));
         let lost = self.places.first_lost();
         if lost_before.is_some() {
@@ -196,8 +197,10 @@ impl Interpreter<'_> {
     fn curve_of_move(
         &mut self,
         block: &Block<'_>,
-        (motion, mm_per_unit): (Motion, f64),
-        (start, end): (Vector3<f64>, Vector3<f64>),
+        motion: Motion,
+        mm_per_unit: f64,
+        start: Vector3<f64>,
+        end: Vector3<f64>,
         known_before: [bool; 3],
     ) -> Result<Curve, ProgramError> {
         match motion {
@@ -235,5 +238,61 @@ impl Interpreter<'_> {
             }
             _ => Ok(Curve::Line),
         }
+    }
+}
+
+/// Places that are the machine's: tool lengths, G28, G30, G53.
+impl Interpreter<'_> {
+    /// G43, G49 and their like: the tool stays, and its point is at a coordinate that is not in the program.
+    pub(super) fn change_tool_length(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
+        let by_words = matches!(block.codes.tool_length, Some(431 | 432));
+        if by_words && (block.codes.motion.is_some() || block.codes.position_offset.is_some()) {
+            return Err(block.refuse(
+                ProgramErrorKind::Ambiguous,
+                None,
+                "axis words beside G43.1 or G43.2 are lengths to some controllers and a motion to others",
+                "write the motion as a block of its own",
+            ));
+        }
+        let axes = self.modes.set_tool_length(block);
+        for axis in (0..3).filter(|axis| axes[*axis]) {
+            self.places.lose(axis, Cause::ToolLength, block.line_number);
+        }
+        Ok(())
+    }
+
+    /// G28, G30, G53: one move, to where the axes end; the point on the way there is not looked at.
+    pub(super) fn go_to_machine_place(&mut self, block: &Block<'_>, place: &MachinePlace) {
+        if COORDINATES
+            .iter()
+            .any(|letter| block.value(*letter).is_some_and(|value| value != 0.0))
+        {
+            self.modes.use_units();
+        }
+        let start = self.places.position;
+        let known_before = self.places.known;
+        for axis in (0..3).filter(|axis| place.axes[*axis]) {
+            self.places.position[axis] = place.places_mm[axis].unwrap_or(0.0);
+            match place.places_mm[axis] {
+                Some(_) => self.places.state(axis),
+                None => self.places.lose(axis, Cause::Machine, block.line_number),
+            }
+        }
+        self.modes.extra.forget(block, place.all);
+        self.knowledge
+            .push((known_before, self.places.known, false));
+        let mm_per_unit = self.modes.units().map_or(1.0, Units::mm_per_unit);
+        self.moves.push(Move {
+            line: block.line_number,
+            kind: MoveKind::Rapid,
+            curve: Curve::Line,
+            start,
+            end: self.places.position,
+            tool_turn: None,
+            extra: Vec::new(),
+            feed: self.modes.feed,
+            known: Knowledge::Nothing,
+            words: self.coordinate_words(mm_per_unit, place.axes),
+        });
     }
 }

@@ -3,7 +3,7 @@
 use crate::path::moves::ExtraMode;
 use crate::reading::beside::{COORDINATES, OTHER_AXES};
 use crate::reading::block::Block;
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
 use crate::reading::options::{OtherAxes, Units};
 use crate::text::program::Program;
 

@@ -6,12 +6,11 @@ use crate::error::WriteError;
 use crate::number;
 use crate::path::curve::Curve;
 use crate::path::moves::{ExtraAxis, ExtraMode, Motion, Move, Path};
-use crate::text::line::{Line, Word};
 use crate::text::program::Program;
-use crate::writing::blocks::arc_of_piece::arc_words;
-use crate::writing::blocks::axis_words::AxisWords;
-use crate::writing::blocks::block_text::{AXES, BlockText, Edits, Place, motion_word, number_span};
-use crate::writing::blocks::feed_words::FeedWords;
+use crate::text::{Line, Word};
+use crate::writing::arc_words::arc_words;
+use crate::writing::blocks::words::{AxisWords, FeedWords};
+use crate::writing::blocks::{AXES, BlockText, Edits, Place, motion_word, number_span};
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::{OutputMove, OutputState, motion_of};
 use crate::writing::rotary_words::{EXTRA_DECIMALS, TurnedAxes};
@@ -30,7 +29,8 @@ pub(crate) struct BlockWriter<'a> {
 
 impl<'a> BlockWriter<'a> {
     pub fn new(
-        (program, line): (&'a Program, &'a Line),
+        program: &'a Program,
+        line: &'a Line,
         motion: &'a Move,
         whole: &ProgramStyle,
         options: &WriteOptions,
@@ -76,19 +76,19 @@ impl<'a> BlockWriter<'a> {
         let own = motion_of_piece(self.motion, step);
         let mut edits = Edits::default();
         self.feeds.edit_feed_mode(&mut edits);
-        edit_motion_words((text, self.motion), state, own, &mut edits);
+        edit_motion_words(text, self.motion, state, own, &mut edits);
         for (letter, number) in self.axes.words_to(state, &step.target, Place::OwnLine) {
             text.edit_word(&mut edits, letter, number);
         }
-        let of_arc = arc_words(&self.axes, state, step, (from, Place::OwnLine))?;
-        let turned = (self.turned).words_of_piece(state, (steps, 0), |l| text.number_of(l));
+        let of_arc = arc_words(&self.axes, state, step, from, Place::OwnLine)?;
+        let turned = (self.turned).words_of_piece(state, steps, 0, |l| text.number_of(l));
         for (letter, number) in of_arc.into_iter().chain(turned) {
             if let Some(number) = number {
                 text.edit_word(&mut edits, letter, number);
             }
         }
         if steps.len() > 1 {
-            for (letter, number) in self.extra.shares(&self.turned, (steps, 0))? {
+            for (letter, number) in self.extra.shares(&self.turned, steps, 0)? {
                 text.edit_word(&mut edits, letter, number);
             }
         }
@@ -103,8 +103,9 @@ impl<'a> BlockWriter<'a> {
             let (letter, number) = self.axes.standing_word(state);
             text.add_word(&mut edits.added, letter, &number);
         }
-        let pieces = (steps.len(), written_length(state, &from));
-        self.feeds.edit_feed(state, step, pieces, &mut edits);
+        let written_mm = written_length(state, &from);
+        self.feeds
+            .edit_feed(state, step, steps.len(), written_mm, &mut edits);
         if steps.len() > 1 {
             for word in text.words_after_motion() {
                 text.remove_word(&mut edits, word);
@@ -121,7 +122,7 @@ impl<'a> BlockWriter<'a> {
         let text = &self.text;
         let own = motion_of(self.motion);
         let mut edits = Edits::default();
-        edit_motion_words((text, self.motion), state, own, &mut edits);
+        edit_motion_words(text, self.motion, state, own, &mut edits);
         for (letter, number) in self.axes.own_words_to(state, &self.motion.end) {
             text.edit_word(&mut edits, letter, number);
         }
@@ -143,15 +144,15 @@ impl<'a> BlockWriter<'a> {
         for (letter, number) in self.axes.words_to(state, &step.target, Place::FurtherLine) {
             block.add_word(&mut text, letter, &number);
         }
-        let of_arc = arc_words(&self.axes, state, step, (from, Place::FurtherLine))?;
-        let turned = (self.turned).words_of_piece(state, (steps, index), |_| None);
+        let of_arc = arc_words(&self.axes, state, step, from, Place::FurtherLine)?;
+        let turned = (self.turned).words_of_piece(state, steps, index, |_| None);
         for (letter, number) in of_arc.into_iter().chain(turned) {
             if let Some(number) = number {
                 block.add_word(&mut text, letter, &number);
             }
         }
         if !step.corner_step {
-            for (letter, number) in self.extra.shares(&self.turned, (steps, index))? {
+            for (letter, number) in self.extra.shares(&self.turned, steps, index)? {
                 if block.separator.is_empty() && letter == b'E' && !text.is_empty() {
                     // `1E5` would be read as a number with an exponent.
                     text.push(' ');
@@ -164,8 +165,8 @@ impl<'a> BlockWriter<'a> {
             let (letter, number) = self.axes.standing_word(state);
             block.add_word(&mut text, letter, &number);
         }
-        let pieces = (steps.len(), written_length(state, &from));
-        if let Some(number) = self.feeds.of_piece(state, step, pieces) {
+        let written_mm = written_length(state, &from);
+        if let Some(number) = self.feeds.of_piece(state, step, steps.len(), written_mm) {
             block.add_word(&mut text, b'F', &number);
         }
         let mut line = Vec::new();
@@ -200,8 +201,8 @@ impl<'a> BlockWriter<'a> {
         if motion_word(text.words).is_none() && state.motion != Some(own) {
             text.add_word(&mut edits.added, b'G', code_of(own));
         }
-        let pieces = (1, self.motion.length_mm());
-        self.feeds.edit_feed(state, step, pieces, &mut edits);
+        let written_mm = self.motion.length_mm();
+        self.feeds.edit_feed(state, step, 1, written_mm, &mut edits);
         state.position = self.motion.end;
         state.target = self.motion.end;
         state.arc = None;
@@ -230,7 +231,8 @@ impl ExtraWords<'_> {
     pub fn shares(
         &self,
         turned: &TurnedAxes<'_>,
-        (steps, index): (&[OutputMove], usize),
+        steps: &[OutputMove],
+        index: usize,
     ) -> Result<Vec<(u8, String)>, WriteError> {
         let mut words = Vec::new();
         for extra in &self.motion.extra {
@@ -311,7 +313,8 @@ fn code_of(motion: Motion) -> &'static str {
 
 /// Edits the motion on the block's own line: if its piece is straight, G2 and G3 become G1, and the words of the arc go.
 fn edit_motion_words(
-    (text, motion): (&BlockText<'_>, &Move),
+    text: &BlockText<'_>,
+    motion: &Move,
     state: &OutputState,
     own: Motion,
     edits: &mut Edits,

@@ -3,11 +3,11 @@
 use nalgebra::Vector6;
 
 use crate::error::WriteError;
-use crate::field::request::Course;
+use crate::field::Course;
 use crate::path::curve::Curve;
 use crate::path::moves::Move;
 use crate::writing::directed_moves::DirectedMove;
-use crate::writing::dividing::stretch::Stretch;
+use crate::writing::dividing::Stretch;
 use crate::writing::node::{Node, is_corrected_at_end, is_divided, taken_up};
 use crate::writing::options::WriteOptions;
 use crate::writing::queries::FieldQueries;
@@ -35,7 +35,8 @@ struct Boundary {
 fn boundaries(
     queries: &FieldQueries<'_>,
     move_index: usize,
-    (options, fitted): (&WriteOptions, Fitted),
+    options: &WriteOptions,
+    fitted: Fitted,
     directed: Option<&DirectedMove<'_>>,
 ) -> Result<(Vec<Boundary>, Course), WriteError> {
     let motion = &queries.path.moves[move_index];
@@ -115,7 +116,8 @@ const SHORT: f64 = 0.01;
 /// True if the middle of a move is requested only when its ends do not determine the correction.
 fn is_short(
     motion: &Move,
-    (course, list): (Course, &[Boundary]),
+    course: Course,
+    list: &[Boundary],
     directed: Option<&DirectedMove<'_>>,
 ) -> bool {
     let Course::Steady { radius_mm } = course else {
@@ -128,7 +130,8 @@ fn is_short(
 /// Asks for the ends of all first stretches, and for the middles between them where they are not very short.
 pub(crate) fn first_round(
     queries: &mut FieldQueries<'_>,
-    (options, all_fitted): (&WriteOptions, &[Fitted]),
+    options: &WriteOptions,
+    all_fitted: &[Fitted],
     directed: &[Option<DirectedMove<'_>>],
     nodes: &mut Vec<Node>,
 ) -> Result<Vec<Stretch>, WriteError> {
@@ -140,10 +143,11 @@ pub(crate) fn first_round(
             let (list, course) = boundaries(
                 queries,
                 move_index,
-                (options, all_fitted[move_index]),
+                options,
+                all_fitted[move_index],
                 directed[move_index].as_ref(),
             )?;
-            let middles = !is_short(motion, (course, &list), directed[move_index].as_ref());
+            let middles = !is_short(motion, course, &list, directed[move_index].as_ref());
             for pair in list.windows(2) {
                 let [from, to] = [pair[0].share, pair[1].share];
                 requests.push(queries.request(move_index, from));

@@ -3,16 +3,14 @@
 use nalgebra::Vector6;
 
 use crate::error::WriteError;
-use crate::field::request::{CorrectionField, Monitor, Request};
+use crate::field::{CorrectionField, Monitor, Request};
 use crate::path::curve::Curve;
 use crate::path::moves::Path;
-use crate::writing::corner::follow_turns;
 use crate::writing::directed_moves::{DirectedMove, directed_moves, refuse_other_angles};
 use crate::writing::dividing::beginning::{Fitted, first_round};
-use crate::writing::dividing::stretch::{Decision, Place, Stretch};
-use crate::writing::jump::Jump;
+use crate::writing::dividing::{Decision, Place, Stretch};
 use crate::writing::merge::{Accepted, merge};
-use crate::writing::node::{Node, is_divided};
+use crate::writing::node::{Jump, Node, follow_turns, is_divided};
 use crate::writing::options::WriteOptions;
 use crate::writing::queries::FieldQueries;
 
@@ -34,7 +32,8 @@ pub(crate) struct Division {
 pub(crate) fn divide(
     path: &Path,
     field: &dyn CorrectionField,
-    (options, wanted): (&WriteOptions, &dyn Fn(usize) -> Fitted),
+    options: &WriteOptions,
+    wanted: &dyn Fn(usize) -> Fitted,
     monitor: &dyn Monitor,
 ) -> Result<Division, WriteError> {
     let directed = directed_moves(path);
@@ -59,10 +58,10 @@ pub(crate) fn divide(
     };
     let mut nodes = Vec::new();
     let mut accepted = Vec::new();
-    let mut open = first_round(&mut queries, (options, &fitted), &directed, &mut nodes)?;
+    let mut open = first_round(&mut queries, options, &fitted, &directed, &mut nodes)?;
     while !open.is_empty() {
         answer(&mut queries, &mut open, options)?;
-        open = next_round((path, &directed), open, options, &mut nodes, &mut accepted);
+        open = next_round(path, &directed, open, options, &mut nodes, &mut accepted);
         if nodes.len() + open.len() > options.max_pieces {
             let line = open
                 .first()
@@ -83,7 +82,7 @@ pub(crate) fn divide(
             .cmp(&b.move_index)
             .then(a.share.total_cmp(&b.share))
     });
-    let mut nodes = merge(nodes, (&accepted, &directed), options);
+    let mut nodes = merge(nodes, &accepted, &directed, options);
     refuse_other_angles(path, &nodes, &directed)?;
     let jumps = follow_turns(&mut queries, &mut nodes, options)?;
     accepted.retain(|stretch| {
@@ -128,7 +127,8 @@ fn answer(
 
 /// Accepts the good stretches and halves the others.
 fn next_round(
-    (path, directed): (&Path, &[Option<DirectedMove<'_>>]),
+    path: &Path,
+    directed: &[Option<DirectedMove<'_>>],
     open: Vec<Stretch>,
     options: &WriteOptions,
     nodes: &mut Vec<Node>,

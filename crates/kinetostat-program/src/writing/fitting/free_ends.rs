@@ -78,7 +78,7 @@ impl Search<'_> {
         while pieces.len() < most {
             if reach.whole {
                 let target = self.span.ends[1];
-                pieces.push(self.piece((self.span.share[1], target), reach.tube));
+                pieces.push(self.piece(self.span.share[1], target, reach.tube));
                 return Some(pieces);
             }
             let mut best: Option<(Reach, FittedPiece)> = None;
@@ -139,7 +139,7 @@ impl Search<'_> {
             };
             for height in heights {
                 let target = point + self.arc.axis * (height - point.dot(&self.arc.axis));
-                let piece = self.piece((share, target), tube);
+                let piece = self.piece(share, target, tube);
                 if self.is_long(&piece, last) {
                     found.push((piece, stride));
                 }
@@ -155,7 +155,7 @@ impl Search<'_> {
         let end = self.span.ends[1];
         let whole = self.tube(last, to, end).filter(|tube| {
             let height = end.dot(&self.arc.axis);
-            let piece = self.piece((to, end), *tube);
+            let piece = self.piece(to, end, *tube);
             (tube.heights[0]..=tube.heights[1]).contains(&height) && self.is_long(&piece, last)
         });
         if let Some(tube) = whole {
@@ -167,7 +167,7 @@ impl Search<'_> {
         }
         // The accuracy of the search is a fraction of the stride.
         let shortest = larger(self.fit.shortest(), 2e-3 * stride);
-        let (share, tube) = farthest([from, to], (stride, shortest), |share| {
+        let (share, tube) = farthest([from, to], stride, shortest, |share| {
             self.tube(last, share, self.fit.curve.point(share))
         })?;
         Some(Reach {
@@ -192,7 +192,7 @@ impl Search<'_> {
         (tube.heights[0] <= tube.heights[1]).then_some(tube)
     }
 
-    fn piece(&self, (share_to, target): (f64, Vector3<f64>), tube: Tube) -> FittedPiece {
+    fn piece(&self, share_to: f64, target: Vector3<f64>, tube: Tube) -> FittedPiece {
         FittedPiece {
             share_to,
             target,
@@ -214,7 +214,8 @@ const HALVINGS: u32 = 14;
 /// `shortest` is not halved any more.
 fn farthest<T>(
     [from, to]: [f64; 2],
-    (stride, shortest): (f64, f64),
+    stride: f64,
+    shortest: f64,
     found: impl Fn(f64) -> Option<T>,
 ) -> Option<(f64, T)> {
     let mut best = None;
@@ -281,7 +282,7 @@ impl Fit<'_> {
                 });
             }
             let from = last.share_to;
-            let best = farthest([from, to], (stride, shortest), |share| {
+            let best = farthest([from, to], stride, shortest, |share| {
                 self.fitting(&self.part(span, &last, share))
             });
             // Shorter than the shortest piece the curve is followed as it is, with an end where it may have a corner.

@@ -7,10 +7,9 @@ use nalgebra::Vector3;
 use crate::number::{larger, smaller};
 use crate::path::curve::{Arc, Curve};
 use crate::writing::corrected_curve::CorrectedCurve;
-use crate::writing::fitting::circle::Circle;
+use crate::writing::fitting::Circle;
 use crate::writing::options::WriteOptions;
-use crate::writing::output_state::{FittedArc, FittedCircle};
-use crate::writing::written_arc::slipped;
+use crate::writing::output_state::{FittedArc, FittedCircle, slipped};
 
 /// Form of the arcs of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -102,8 +101,13 @@ const FLATTEST_CIRCLE_DIGITS: f64 = 100.0;
 /// Largest radius written, mm.
 const LARGEST_RADIUS_MM: f64 = 1e6;
 
-/// A place of the corrected curve, by the part of its stretch.
-type Place = (f64, Vector3<f64>);
+/// A place of the corrected curve.
+struct CurvePlace {
+    /// Part of the stretch before it.
+    part: f64,
+    /// In mm.
+    position: Vector3<f64>,
+}
 
 /// Curve, shape and tolerances of a fit.
 pub(crate) struct Fit<'a> {
@@ -174,32 +178,35 @@ impl Fit<'_> {
             return None;
         };
         let within_mm = self.left_mm(span, within_mm)?;
-        let tube = |places: &[Place]| self.arcs((arc, form), span, places, within_mm);
+        let tube = |places: &[CurvePlace]| self.arcs(arc, form, span, places, within_mm);
         tube(&self.few(span))?;
         tube(&self.all(span))
     }
 
     /// A few places show most of what does not fit.
-    fn few(&self, span: &Span) -> Vec<Place> {
+    fn few(&self, span: &Span) -> Vec<CurvePlace> {
         self.places(span, even(FEW_PLACES))
     }
 
-    fn all(&self, span: &Span) -> Vec<Place> {
+    fn all(&self, span: &Span) -> Vec<CurvePlace> {
         let [from, to] = span.share;
         let quarters = self.curve.quarters(from, to);
         let quarters = quarters.map(|share| (share - from) / (to - from));
         self.places(span, even(PLACES).chain(quarters))
     }
 
-    fn places(&self, span: &Span, parts: impl Iterator<Item = f64>) -> Vec<Place> {
+    fn places(&self, span: &Span, parts: impl Iterator<Item = f64>) -> Vec<CurvePlace> {
         let [from, to] = span.share;
         parts
-            .map(|part| (part, self.curve.point(from + (to - from) * part)))
+            .map(|part| CurvePlace {
+                part,
+                position: self.curve.point(from + (to - from) * part),
+            })
             .collect()
     }
 
     /// The piece that is near these places.
-    fn through(&self, span: &Span, places: &[Place], allowed_mm: f64) -> Option<FittedPiece> {
+    fn through(&self, span: &Span, places: &[CurvePlace], allowed_mm: f64) -> Option<FittedPiece> {
         let piece = |arc| FittedPiece {
             share_to: span.share[1],
             target: span.ends[1],
@@ -215,24 +222,25 @@ impl Fit<'_> {
             });
         }
         if let Shape::Arcs(arc, form) = self.shape
-            && let Some(tube) = self.arcs((arc, form), span, places, allowed_mm)
+            && let Some(tube) = self.arcs(arc, form, span, places, allowed_mm)
             && (tube.heights[0]..=tube.heights[1]).contains(&span.ends[1].dot(&arc.axis))
         {
             return Some(piece(Some(tube.arc)));
         }
         let [start, end] = &span.ends;
-        let straight = places.iter().all(|(part, place)| {
+        let straight = places.iter().all(|place| {
             // NaN does not fit.
-            (start.lerp(end, *part) - place).norm() <= allowed_mm
+            (start.lerp(end, place.part) - place.position).norm() <= allowed_mm
         });
         straight.then(|| piece(None))
     }
 
     fn arcs(
         &self,
-        (arc, form): (&Arc, ArcForm),
+        arc: &Arc,
+        form: ArcForm,
         span: &Span,
-        places: &[Place],
+        places: &[CurvePlace],
         within_mm: f64,
     ) -> Option<Tube> {
         let [from, to] = span.share;
@@ -247,7 +255,10 @@ impl Fit<'_> {
         if sweep.abs() > LARGEST_SWEEP || !enough {
             return None;
         }
-        let points: Vec<[f64; 2]> = places.iter().map(|(_, place)| in_plane(place)).collect();
+        let points: Vec<[f64; 2]> = places
+            .iter()
+            .map(|place| in_plane(&place.position))
+            .collect();
         let circle = Circle::through(start, end, &points, sweep)?;
         let turned = circle.turned(end, sweep);
         // The other way round, bent to its other side, it would be nearly a whole circle to a controller.
@@ -275,7 +286,7 @@ impl Fit<'_> {
             return None;
         }
         let start = span.ends[0].dot(&arc.axis);
-        let heights = heights(arc, start, (places, &points), (&circle, &fitted), within_mm)?;
+        let heights = heights(arc, start, places, &points, &circle, &fitted, within_mm)?;
         Some(Tube {
             arc: fitted,
             heights,
@@ -287,7 +298,7 @@ impl Fit<'_> {
         &self,
         arc: &Arc,
         span: &Span,
-        places: &[Place],
+        places: &[CurvePlace],
         within_mm: f64,
     ) -> Option<FittedCircle> {
         let [from, to] = span.share;
@@ -308,11 +319,11 @@ impl Fit<'_> {
             return None;
         }
         let slip = slip(places, |index, part| {
-            curve.angle_to(&places[index].1, curve.sweep * part) / curve.sweep
+            curve.angle_to(&places[index].position, curve.sweep * part) / curve.sweep
         });
-        let near = places
-            .iter()
-            .all(|(part, place)| (curve.point(slipped(&slip, *part)) - place).norm() <= within_mm);
+        let near = places.iter().all(|place| {
+            (curve.point(slipped(&slip, place.part)) - place.position).norm() <= within_mm
+        });
         (near && is_steady(&slip)).then(|| FittedCircle {
             via_mm,
             slip,
@@ -321,12 +332,12 @@ impl Fit<'_> {
         })
     }
 
-    fn largest_correction_mm(&self, span: &Span, places: &[Place]) -> f64 {
+    fn largest_correction_mm(&self, span: &Span, places: &[CurvePlace]) -> f64 {
         let [from, to] = span.share;
         let motion = self.curve.motion;
         let corrections = places
             .iter()
-            .map(|(part, place)| (place - motion.point(from + (to - from) * part)).norm());
+            .map(|place| (place.position - motion.point(from + (to - from) * place.part)).norm());
         corrections.fold(0.0, larger)
     }
 }
@@ -338,10 +349,11 @@ fn even(count: usize) -> impl Iterator<Item = f64> {
 
 /// Difference between equal ways of the path and of the arc, as coefficients of two polynomials that are orthogonal over even
 /// places, and nearly so over others.
-fn slip(places: &[Place], turned: impl Fn(usize, f64) -> f64) -> [f64; 2] {
+fn slip(places: &[CurvePlace], turned: impl Fn(usize, f64) -> f64) -> [f64; 2] {
     let mut sums = [[0.0; 2]; 2];
-    for (index, (part, _)) in places.iter().enumerate() {
-        let is = turned(index, *part);
+    for (index, place) in places.iter().enumerate() {
+        let part = place.part;
+        let is = turned(index, part);
         let first = part * (1.0 - part);
         let second = first * (1.0 - 2.0 * part);
         for (sum, shape) in sums.iter_mut().zip([first, second]) {
@@ -361,13 +373,15 @@ fn is_steady(slip: &[f64; 2]) -> bool {
 fn heights(
     arc: &Arc,
     start: f64,
-    (places, points): (&[Place], &[[f64; 2]]),
-    (circle, fitted): (&Circle, &FittedArc),
+    places: &[CurvePlace],
+    points: &[[f64; 2]],
+    circle: &Circle,
+    fitted: &FittedArc,
     within_mm: f64,
 ) -> Option<[f64; 2]> {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-    for ((part, place), point) in places.iter().zip(points) {
-        let turned = slipped(&fitted.slip, *part);
+    for (place, point) in places.iter().zip(points) {
+        let turned = slipped(&fitted.slip, place.part);
         let (sine, cosine) = (circle.start_angle + fitted.sweep_rad * turned).sin_cos();
         let off = [
             circle.centre[0] + circle.radius * cosine - point[0],
@@ -375,7 +389,7 @@ fn heights(
         ];
         // Distance that remains beside the error in the plane; NaN if nothing remains.
         let left = (within_mm * within_mm - off[0] * off[0] - off[1] * off[1]).sqrt();
-        let rise = place.dot(&arc.axis) - start;
+        let rise = place.position.dot(&arc.axis) - start;
         low = larger(low, (rise - left) / turned);
         high = smaller(high, (rise + left) / turned);
     }

@@ -1,8 +1,7 @@
 //! Contents of a paper, in order.
 
-mod chatter;
 mod of;
-mod tables;
+pub(crate) mod sections;
 
 use kinetostat_machining::Level;
 
@@ -12,9 +11,8 @@ use crate::paper::content::of::{MOST, Of, more};
 use crate::paper::question::Paper;
 use crate::paper::words::table::fill;
 use crate::paper::words::{left as in_words, statement, words};
-use crate::run::facts;
 use crate::run::meaning::assessment;
-use crate::run::shown::Shown;
+use crate::run::{Shown, facts};
 use crate::text::{clean, shorten};
 
 /// A paper of a run.
@@ -41,11 +39,11 @@ pub(crate) fn contents(paper: &Paper<'_>, result: &Shown<'_>) -> Contents {
         blocks.push(Block::Note(words.quoted.to_owned()));
     }
     blocks.extend(results(&of));
-    blocks.extend(tables::features(&of));
-    blocks.extend(tables::worst(&of));
-    blocks.extend(tables::drives(&of));
-    blocks.extend(tables::cut(&of));
-    blocks.extend(chatter::chatter(&of));
+    blocks.extend(sections::features(&of));
+    blocks.extend(sections::worst(&of));
+    blocks.extend(sections::drives(&of));
+    blocks.extend(sections::cut(&of));
+    blocks.extend(sections::chatter(&of));
     blocks.extend(left(&of));
     blocks.extend(warnings(&of));
     blocks.push(Block::Heading(words.head_inputs.to_owned()));

@@ -5,7 +5,7 @@ use crate::paper::block::Block;
 use crate::paper::language::Language;
 use crate::paper::question::Paper;
 use crate::paper::words::table::{Words, fill};
-use crate::run::shown::Shown;
+use crate::run::Shown;
 use crate::text::clean;
 
 /// Maximum number of warnings and features shown; more are in the result file.

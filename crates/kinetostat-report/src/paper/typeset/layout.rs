@@ -78,9 +78,9 @@ impl<'a> Setter<'a> {
             pages: vec![Vec::new()],
             y: TOP,
         };
-        setter.text(&contents.kind, (LEFT, RIGHT), SMALL, Weight::Regular);
+        setter.text(&contents.kind, LEFT, RIGHT, SMALL, Weight::Regular);
         setter.y += 2.0;
-        setter.text(&contents.title, (LEFT, RIGHT), 15.0, Weight::Bold);
+        setter.text(&contents.title, LEFT, RIGHT, 15.0, Weight::Bold);
         setter.y += 6.0;
         let blocks = &contents.blocks;
         for (at, block) in blocks.iter().enumerate() {
@@ -124,8 +124,7 @@ impl<'a> Setter<'a> {
     }
 
     /// One line at a height.
-    pub(super) fn line_at(&mut self, at: (f32, f32), text: String, size: f32, weight: Weight) {
-        let (x, top) = at;
+    pub(super) fn line_at(&mut self, x: f32, top: f32, text: String, size: f32, weight: Weight) {
         self.put(Mark::Text {
             x,
             y: top + size,
@@ -137,10 +136,10 @@ impl<'a> Setter<'a> {
     }
 
     /// Text between two sides, in lines.
-    fn text(&mut self, text: &str, (left, right): (f32, f32), size: f32, weight: Weight) {
+    fn text(&mut self, text: &str, left: f32, right: f32, size: f32, weight: Weight) {
         for line in self.lines(text, right - left, size, weight) {
             self.room(size * LEADING);
-            self.line_at((left, self.y), line, size, weight);
+            self.line_at(left, self.y, line, size, weight);
             self.y += size * LEADING;
         }
     }
@@ -151,15 +150,15 @@ impl<'a> Setter<'a> {
                 self.y += 10.0;
                 // Keeps a heading from standing alone at the foot of a page.
                 self.room(64.0);
-                self.text(text, (LEFT, RIGHT), 11.0, Weight::Bold);
+                self.text(text, LEFT, RIGHT, 11.0, Weight::Bold);
                 self.y += 2.0;
             }
             Block::Paragraph(text) => {
-                self.text(text, (LEFT, RIGHT), SIZE, Weight::Regular);
+                self.text(text, LEFT, RIGHT, SIZE, Weight::Regular);
                 self.y += 4.0;
             }
             Block::Note(text) => {
-                self.text(text, (LEFT, RIGHT), SMALL, Weight::Regular);
+                self.text(text, LEFT, RIGHT, SMALL, Weight::Regular);
                 self.y += 4.0;
             }
             Block::Verdict {
@@ -180,8 +179,8 @@ impl<'a> Setter<'a> {
             Block::List(items) => {
                 for item in items {
                     self.room(SIZE * LEADING);
-                    self.line_at((LEFT, self.y), "–".to_owned(), SIZE, Weight::Regular);
-                    self.text(item, (LEFT + 10.0, RIGHT), SIZE, Weight::Regular);
+                    self.line_at(LEFT, self.y, "–".to_owned(), SIZE, Weight::Regular);
+                    self.text(item, LEFT + 10.0, RIGHT, SIZE, Weight::Regular);
                     self.y += 2.0;
                 }
             }
@@ -208,7 +207,7 @@ impl<'a> Setter<'a> {
         }
         let page = self.pages.len();
         for line in lines {
-            self.text(line, (LEFT + NAMES, RIGHT), SIZE, Weight::Regular);
+            self.text(line, LEFT + NAMES, RIGHT, SIZE, Weight::Regular);
         }
         let below_names = top + names.len() as f32 * SIZE * LEADING;
         if page == self.pages.len() && self.y < below_names {
@@ -245,12 +244,12 @@ impl<'a> Setter<'a> {
             self.frame(level, height);
         }
         self.y += 7.0;
-        self.text(word, (left, right), 12.0, Weight::Bold);
+        self.text(word, left, right, 12.0, Weight::Bold);
         self.y += 1.0;
         for sentence in lines {
             for line in sentence {
                 self.room(SIZE * LEADING);
-                self.line_at((left, self.y), line, SIZE, Weight::Regular);
+                self.line_at(left, self.y, line, SIZE, Weight::Regular);
                 self.y += SIZE * LEADING;
             }
             self.y += 3.0;
@@ -289,11 +288,11 @@ impl<'a> Setter<'a> {
             let foot = self.y + SIGNATURE - 14.0;
             let sides = [(LEFT, 86.0), (LEFT + 100.0, 180.0), (LEFT + 294.0, 190.0)];
             let who = self.letters.writable(who);
-            self.line_at((LEFT, foot - SIZE - 4.0), who, SIZE, Weight::Bold);
+            self.line_at(LEFT, foot - SIZE - 4.0, who, SIZE, Weight::Bold);
             for ((x, width), below) in sides.into_iter().skip(1).zip([name, signature]) {
                 self.put(Mark::rule(x, foot, x + width));
                 let below = self.letters.writable(below);
-                self.line_at((x, foot + 2.0), below, 7.0, Weight::Regular);
+                self.line_at(x, foot + 2.0, below, 7.0, Weight::Regular);
             }
             self.y += SIGNATURE;
         }

@@ -129,7 +129,7 @@ impl Setter<'_> {
                     Side::Right => x + width - own,
                 };
                 let y = top + index as f32 * size * LEADING;
-                self.line_at((at, y + 1.0), line, size, weight);
+                self.line_at(at, y + 1.0, line, size, weight);
             }
             x += width + GAP;
         }

@@ -9,9 +9,9 @@ pub(crate) mod table;
 
 use crate::paper::language::Language;
 use crate::paper::words::table::Words;
+use crate::run::Shown;
 use crate::run::facts::Left;
 use crate::run::meaning::Statement;
-use crate::run::shown::Shown;
 
 /// The words of a language.
 pub(crate) fn words(language: Language) -> &'static Words {
@@ -30,8 +30,8 @@ pub(crate) fn statement(
 ) -> Option<String> {
     match language {
         Language::English => Some(statement.sentence(result)),
-        Language::French => french::sentences::statement(statement, result),
-        Language::German => german::sentences::statement(statement, result),
+        Language::French => french::statement(statement, result),
+        Language::German => german::statement(statement, result),
     }
 }
 
@@ -39,7 +39,7 @@ pub(crate) fn statement(
 pub(crate) fn left(language: Language, left: Left, result: &Shown<'_>) -> [String; 3] {
     match language {
         Language::English => [left.name().to_owned(), left.size(result), left.text(result)],
-        Language::French => french::left::left(left, result),
-        Language::German => german::left::left(left, result),
+        Language::French => french::left(left, result),
+        Language::German => german::left(left, result),
     }
 }

@@ -3,7 +3,7 @@
 use kinetostat_machining::CornerLoad;
 
 use crate::number::{self, Rounding};
-use crate::run::shown::Shown;
+use crate::run::Shown;
 use crate::text;
 
 /// A largest length, as the English sentences round it.

@@ -1,18 +1,21 @@
-//! Canned cycles that stay as they are written: rigid taps, and borings whose way is the controller's own.
-//!
-//! The expansion for Fanuc writes each hole as `G99 G84 Z-3. R1.` (back boring as `G98 G87`), without a place in the plane: the
-//! tool is over the hole, and ends at the level R, which G98 does not leave for a cycle that begins there.
+//! Blocks that are carried as they are written: canned cycles of the controller's own, and calls of subprograms in other files.
 
 use crate::error::{ProgramError, ProgramErrorKind};
 use crate::path::curve::Curve;
 use crate::path::moves::{Knowledge, Motion, Move, MoveKind};
 use crate::reading::block::Block;
 use crate::reading::dialect::{Treatment, lookup};
-use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::interpreting::Interpreter;
+use crate::text::program::Program;
+use crate::text::syntax::{FLATTEN, of_subprogram};
 
 /// G87: the tool ends where it began.
 const BACK_BORING: u32 = 870;
 
+/// Canned cycles that stay as they are written: rigid taps, and borings whose way is the controller's own.
+///
+/// The expansion for Fanuc writes each hole as `G99 G84 Z-3. R1.` (back boring as `G98 G87`), without a place in the plane: the
+/// tool is over the hole, and ends at the level R, which G98 does not leave for a cycle that begins there.
 impl Interpreter<'_> {
     /// Refuses a canned cycle in another form than the one that is carried.
     pub(super) fn refuse_cycle(&self, block: &Block<'_>) -> Result<(), ProgramError> {
@@ -80,5 +83,57 @@ impl Interpreter<'_> {
             words: self.coordinate_words(mm_per_unit, [false, false, true]),
         });
         Ok(())
+    }
+}
+
+/// Calls of subprograms (M98, G65): only a run for Fanuc's controllers leaves them in a program, those that are in none of its files.
+impl Interpreter<'_> {
+    /// Carries a block that calls a subprogram: the tool is taken to stay where it is; false for any other block.
+    pub(super) fn outside_call(
+        &mut self,
+        program: &Program,
+        index: usize,
+    ) -> Result<bool, ProgramError> {
+        let words = program.words(&program.lines()[index]);
+        let call = words.iter().find(|word| {
+            word.letter == b'M' && word.value == 98.0 || word.letter == b'G' && word.value == 65.0
+        });
+        let Some(call) = call else {
+            return Ok(false);
+        };
+        let Some(called) = words.iter().find(|word| word.letter == b'P') else {
+            return Ok(false);
+        };
+        let refused = |reason: &str, remedy: &str| {
+            let block = Block::understood(program, index);
+            Err(block.refuse(ProgramErrorKind::UnknownCode, Some(call), reason, remedy))
+        };
+        let number = called.value as u32;
+        if !self.options.of_fanuc_run || f64::from(number) != called.value {
+            let what = match call.letter {
+                b'M' => "M98",
+                _ => "the macro call G65",
+            };
+            return refused(&of_subprogram(what), FLATTEN);
+        }
+        if self.options.moving_calls.contains(&number) {
+            return refused(
+                &format!(
+                    "O{number} moves the tool, as is stated, and none of the files says where to"
+                ),
+                "give its file as well, or divide the program at the call",
+            );
+        }
+        let line = program.number_of(index);
+        self.outside_calls.entry(number).or_insert(line);
+        self.repeated.note(line, &format!("O{number} is in none of the files: it is taken not to move the tool and not to change speed, tool or frame; state it under [calls] if it moves, or give its file"));
+        Ok(true)
+    }
+
+    /// Names the subprograms that are stated to move the tool, and that nothing calls.
+    pub(super) fn warn_of_calls_without_effect(&mut self) {
+        for number in self.options.moving_calls.clone() {
+            self.warn(1, &format!("O{number}, of which is stated that it moves the tool, is called nowhere, or its file is given: that changes nothing"));
+        }
     }
 }

@@ -1,11 +1,133 @@
-//! F of a piece: the speed along the part stays the programmed one.
+//! The axis words and the feed word of a piece.
+
+use nalgebra::Vector3;
 
 use crate::number;
 use crate::path::curve::NO_LENGTH_MM;
 use crate::path::moves::{Feed, FeedMode, Knowledge, Motion, Move};
-use crate::text::line::Word;
-use crate::writing::blocks::block_text::{BlockText, Edits, number_span};
+use crate::text::Word;
+use crate::writing::blocks::{AXES, BlockText, Edits, Place, number_span};
 use crate::writing::output_state::{OutputMove, OutputState, motion_of};
+
+/// Places nearer than this are the same, up to the arithmetic, in mm.
+pub(crate) const UNCHANGED_MM: f64 = 1e-9;
+
+/// Axis words of the pieces of a block.
+///
+/// Each word is chosen against where the output really is, so rounded increments never add up.
+pub(crate) struct AxisWords<'a> {
+    pub text: BlockText<'a>,
+    pub motion: &'a Move,
+    /// Axes that may be written.
+    pub stated: [bool; 3],
+    pub decimals: usize,
+}
+
+impl AxisWords<'_> {
+    /// Moves the output to a target, of which the words are given that must be written: those that stand on the line may do.
+    pub fn words_to(
+        &self,
+        state: &mut OutputState,
+        target_mm: &Vector3<f64>,
+        place: Place,
+    ) -> Vec<(u8, String)> {
+        let mut words = Vec::new();
+        for (axis, letter) in AXES.into_iter().enumerate() {
+            let written = match place {
+                Place::OwnLine => self.text.number_of(letter),
+                Place::FurtherLine => None,
+            };
+            let number = self.number_to(state, axis, target_mm[axis], written);
+            words.extend(number.map(|number| (letter, number)));
+        }
+        words
+    }
+
+    /// Words for the axes that the block itself names; the others stay where they are.
+    pub fn own_words_to(
+        &self,
+        state: &mut OutputState,
+        target_mm: &Vector3<f64>,
+    ) -> Vec<(u8, String)> {
+        let mut words = Vec::new();
+        for (axis, letter) in AXES.into_iter().enumerate() {
+            let Some(written) = self.text.number_of(letter) else {
+                continue;
+            };
+            let number = self.number_to(state, axis, target_mm[axis], Some(written));
+            words.extend(number.map(|number| (letter, number)));
+        }
+        words
+    }
+
+    /// Moves an axis of the output to its target. Returns the number to be written, `None` if the
+    /// word that stands there (or that none stands there) is as near as rounding comes.
+    fn number_to(
+        &self,
+        state: &mut OutputState,
+        axis: usize,
+        target_mm: f64,
+        written: Option<f64>,
+    ) -> Option<String> {
+        let half = 0.5 * 0.1_f64.powi(self.decimals as i32) * (1.0 + 1e-6);
+        if let Some(word) = written {
+            if (self.word_value(state, axis, target_mm) - word).abs() <= half {
+                state.position[axis] = self.place(state, axis, word);
+                return None;
+            }
+        } else {
+            let distance = (target_mm - state.position[axis]).abs() / self.motion.words.mm_per_unit;
+            if distance <= half || !self.stated[axis] {
+                return None;
+            }
+        }
+        let text = number::fixed(self.word_value(state, axis, target_mm), self.decimals);
+        state.position[axis] = self.place(state, axis, number::of_own_text(&text));
+        Some(text)
+    }
+
+    /// An axis word for the place where the output stands.
+    pub fn standing_word(&self, state: &mut OutputState) -> (u8, String) {
+        let axis = (0..3).find(|axis| self.stated[*axis]).unwrap_or(0);
+        let value = match self.motion.words.incremental {
+            true => 0.0,
+            false => self.word_value(state, axis, state.position[axis]),
+        };
+        let number = number::fixed(value, self.decimals);
+        state.position[axis] = self.place(state, axis, number::of_own_text(&number));
+        (AXES[axis], number)
+    }
+
+    /// True if the axis words of the block would bring the output to the block's own end.
+    pub fn words_still_hold(&self, state: &OutputState) -> bool {
+        AXES.into_iter().enumerate().all(|(axis, letter)| {
+            let reached = match self.text.number_of(letter) {
+                Some(word) => self.place(state, axis, word),
+                None => state.position[axis],
+            };
+            (reached - self.motion.end[axis]).abs() < UNCHANGED_MM
+        })
+    }
+
+    /// Origin of the words of an axis, in mm.
+    fn reference_mm(&self, state: &OutputState, axis: usize) -> f64 {
+        let words = &self.motion.words;
+        match words.incremental {
+            true => state.position[axis],
+            false => words.work_offset_mm[axis] + state.offset.active_mm[axis],
+        }
+    }
+
+    /// The word that would bring an axis to `place_mm`, unrounded, in units.
+    fn word_value(&self, state: &OutputState, axis: usize, place_mm: f64) -> f64 {
+        (place_mm - self.reference_mm(state, axis)) / self.motion.words.mm_per_unit
+    }
+
+    /// Position of an axis for a word, in mm.
+    fn place(&self, state: &OutputState, axis: usize, word: f64) -> f64 {
+        self.reference_mm(state, axis) + word * self.motion.words.mm_per_unit
+    }
+}
 
 /// Relative error of the feed in force from which a new F word is written.
 const FEED_TOLERANCE: f64 = 5e-4;
@@ -27,13 +149,14 @@ impl FeedWords<'_> {
         &self,
         state: &mut OutputState,
         step: &OutputMove,
-        (pieces, written_mm): (usize, f64),
+        pieces: usize,
+        written_mm: f64,
         edits: &mut Edits,
     ) {
         if self.text.word(b'F').is_some() {
             state.feed = self.motion.feed;
         }
-        if let Some(number) = self.of_piece(state, step, (pieces, written_mm)) {
+        if let Some(number) = self.of_piece(state, step, pieces, written_mm) {
             self.text.edit_word(edits, b'F', number);
         }
     }
@@ -43,7 +166,8 @@ impl FeedWords<'_> {
         &self,
         state: &mut OutputState,
         step: &OutputMove,
-        (pieces, written_mm): (usize, f64),
+        pieces: usize,
+        written_mm: f64,
     ) -> Option<String> {
         state.feed_limited = false;
         let feed = self.motion.feed?;
@@ -51,7 +175,7 @@ impl FeedWords<'_> {
             return None;
         }
         if self.motion.turns_in_place() {
-            return self.of_turn(state, step, (pieces, written_mm));
+            return self.of_turn(state, step, pieces, written_mm);
         }
         let part_mm = self
             .motion
@@ -90,7 +214,8 @@ impl FeedWords<'_> {
         &self,
         state: &mut OutputState,
         step: &OutputMove,
-        (pieces, written_mm): (usize, f64),
+        pieces: usize,
+        written_mm: f64,
     ) -> Option<String> {
         let feed = self.motion.feed?;
         let in_time = self.by_time || feed.mode == FeedMode::InverseTime;
