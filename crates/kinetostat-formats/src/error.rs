@@ -52,8 +52,10 @@ impl ProgramError {
 
     /// Two programs that a call names alike, each with its file and its first block.
     pub(crate) fn named_alike(
-        (file, begin): (&SourceFile, Range<usize>),
-        (other, other_begin): (&SourceFile, Range<usize>),
+        file: &SourceFile,
+        begin: Range<usize>,
+        other: &SourceFile,
+        other_begin: Range<usize>,
     ) -> Self {
         let reason = format!(
             "a call cannot tell this program from that of the same name in {}, line {}",
@@ -76,7 +78,8 @@ impl ProgramError {
         flat: &FlatText,
         files: &[SourceFile],
         at: usize,
-        (reason, remedy): (String, &str),
+        reason: impl Into<String>,
+        remedy: &str,
     ) -> Self {
         let line = flat.file.line_of(at);
         let origin = flat.origins.get(line.saturating_sub(1)).copied();

@@ -9,8 +9,22 @@ use crate::text::finding::Finding;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 
-/// A line of a program, or a block of several lines: an index of the files, and one of what the file is divided into.
-pub(crate) type Place = (usize, usize);
+/// Position of a block, which is a line or several: the index of its file, and its own in that file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct BlockId {
+    pub file: usize,
+    pub block: usize,
+}
+
+impl BlockId {
+    /// The block after this one.
+    pub(crate) fn next(self) -> Self {
+        Self {
+            block: self.block + 1,
+            ..self
+        }
+    }
+}
 
 /// Limit of the executed lines.
 pub(crate) const MOST_STEPS: u64 = 20_000_000;
@@ -42,7 +56,7 @@ pub(crate) struct Written {
     steps: u64,
     silent: u64,
     /// Lines that were gone back to, each with the last line from where.
-    back_to: BTreeMap<Place, usize>,
+    back_to: BTreeMap<BlockId, usize>,
     pub faults: FaultsOfRun,
     /// A limit was reached: the output is incomplete.
     is_endless: bool,
@@ -59,7 +73,7 @@ impl Written {
     }
 
     /// Adds a text and a line end; the text may be of several lines.
-    pub(crate) fn line(&mut self, text: &[u8], (file, line): (usize, usize)) {
+    pub(crate) fn line(&mut self, text: &[u8], file: usize, line: usize) {
         self.silent = 0;
         self.bytes.extend_from_slice(text);
         self.bytes.extend_from_slice(self.ending);
@@ -69,7 +83,7 @@ impl Written {
     }
 
     /// Adds a text of a line of a file, and of those behind it, where the last one ended.
-    pub(crate) fn part(&mut self, text: &[u8], (file, line): (usize, usize)) {
+    pub(crate) fn part(&mut self, text: &[u8], file: usize, line: usize) {
         for (further, text) in text.split_inclusive(|byte| *byte == b'\n').enumerate() {
             if self.bytes.last().is_none_or(|byte| *byte == b'\n') {
                 self.origins.push((file, line + further));
@@ -79,7 +93,7 @@ impl Written {
     }
 
     /// Adds a part of a file, by its index, with its own line ends.
-    pub(crate) fn copy(&mut self, (file, index): (&SourceFile, usize), part: &Range<usize>) {
+    pub(crate) fn copy(&mut self, file: &SourceFile, index: usize, part: &Range<usize>) {
         let bytes = file.part(part);
         let first = file.line_of(part.start);
         let lines = bytes.split_inclusive(|byte| *byte == b'\n').count();
@@ -94,26 +108,29 @@ impl Written {
     }
 
     /// Notes where a line goes, if it goes back.
-    pub(crate) fn goes_back(&mut self, (file, from): Place, to: usize) {
-        if to <= from {
-            let last = self.back_to.entry((file, to)).or_insert(from);
-            *last = from.max(*last);
+    pub(crate) fn goes_back(&mut self, from: BlockId, to: usize) {
+        if to <= from.block {
+            let begin = BlockId { block: to, ..from };
+            let last = self.back_to.entry(begin).or_insert(from.block);
+            *last = from.block.max(*last);
         }
     }
 
     /// The line that goes back to the beginning of the widest loop around a line.
-    fn end_of_loop(&self, (file, line): Place) -> Option<Place> {
+    fn end_of_loop(&self, at: BlockId) -> Option<BlockId> {
         let loops = self.back_to.iter();
-        let around = loops.filter(|((of, from), to)| *of == file && (*from..=**to).contains(&line));
-        let widest = around.max_by_key(|((_, from), to)| **to - from);
-        widest.map(|(_, to)| (file, *to))
+        let around = loops
+            .filter(|(from, to)| from.file == at.file && (from.block..=**to).contains(&at.block));
+        let widest = around.max_by_key(|(from, to)| **to - from.block);
+        widest.map(|(_, to)| BlockId { block: *to, ..at })
     }
 
     /// The flat program of a file, with its corners written out by `out`; refused with all that was refused before and by the run.
     pub(crate) fn into_flat(
         self,
         file: &SourceFile,
-        (mut faults, findings): (Vec<ProgramError>, Vec<Finding>),
+        mut faults: Vec<ProgramError>,
+        findings: Vec<Finding>,
         out: impl FnOnce(FlatText) -> Result<FlatText, Vec<ProgramError>>,
     ) -> Result<FlatText, RefusedRun> {
         faults.extend(self.faults.into_faults());
@@ -138,25 +155,25 @@ pub(crate) trait Runs {
     fn written(&mut self) -> &mut Written;
 
     /// The line that runs; none at the end.
-    fn at(&self) -> Option<Place>;
+    fn at(&self) -> Option<BlockId>;
 
     /// The lines that run, from that of the main program to the innermost of what is called.
-    fn running(&self) -> Vec<Place>;
+    fn running(&self) -> Vec<BlockId>;
 
     /// The bytes of a line in its file.
-    fn span_of(&self, at: Place) -> Range<usize>;
+    fn span_of(&self, at: BlockId) -> Range<usize>;
 
     /// Runs a line, and goes to the next one.
     ///
     /// # Errors
     /// Why it is refused.
-    fn step(&mut self, at: Place) -> Result<(), ProgramError>;
+    fn step(&mut self, at: BlockId) -> Result<(), ProgramError>;
 
     /// Effect of a refused line on the lines after it.
-    fn behind(&self, at: Place) -> Behind;
+    fn behind(&self, at: BlockId) -> Behind;
 
     /// Goes behind a line that is refused; where it has written nothing, it is written as it stands.
-    fn pass(&mut self, at: Place, has_written: bool);
+    fn pass(&mut self, at: BlockId, has_written: bool);
 
     /// Notes a fault; whether the run goes on.
     fn refuse(&mut self, fault: ProgramError, behind: Behind) -> bool {
@@ -190,7 +207,7 @@ pub(crate) trait Runs {
     }
 
     /// Error of a run that does not end: at the line that jumps back to the start of the outermost running loop, if there is one.
-    fn endless(&mut self, at: Place) -> ProgramError {
+    fn endless(&mut self, at: BlockId) -> ProgramError {
         let mut running = self.running().into_iter();
         let last = running.find_map(|place| self.written().end_of_loop(place));
         let (place, reason, remedy) = match last {
@@ -206,6 +223,6 @@ pub(crate) trait Runs {
             ),
         };
         let span = self.span_of(place);
-        ProgramError::at(&self.files()[place.0], span, reason, remedy)
+        ProgramError::at(&self.files()[place.file], span, reason, remedy)
     }
 }

@@ -67,13 +67,16 @@ impl FaultsOfRun {
 /// Changes that overlap; what to do.
 pub(crate) fn edited(
     flat: FlatText,
-    (edits, added): (Edits, &BTreeMap<usize, usize>),
+    edits: Edits,
+    added: &BTreeMap<usize, usize>,
     files: &[SourceFile],
     remedy: &str,
 ) -> Result<FlatText, Vec<ProgramError>> {
     let Some(bytes) = edits.applied_to(flat.file.bytes()) else {
-        let overlap = ("its words overlap".to_owned(), remedy);
-        return Err(vec![ProgramError::of_flat(&flat, files, 0, overlap)]);
+        let overlap = "its words overlap";
+        return Err(vec![ProgramError::of_flat(
+            &flat, files, 0, overlap, remedy,
+        )]);
     };
     let lines = flat.origins.iter().enumerate();
     let origins = lines.flat_map(|(index, origin)| {

@@ -24,7 +24,7 @@ impl Reader<'_, '_> {
         if self.state.in_cycle {
             let reason =
                 "it is a hole of a cycle: from here the controller drills as the cycle says";
-            self.unknown_with(statement, (reason, HOLES), None);
+            self.unknown_with(statement, reason, HOLES, None);
             return;
         }
         let mut kind = MotionKind::Linear;
@@ -35,13 +35,13 @@ impl Reader<'_, '_> {
             match known.map(|from| circle.angle(&from, &place, digit_mm)) {
                 _ if circle.times => {
                     let reason = "it is a helix of several turns, whose way is not followed";
-                    self.unknown_with(statement, (reason, LEAVE), Some(circle));
+                    self.unknown_with(statement, reason, LEAVE, Some(circle));
                     self.state.place = Some(place);
                     return;
                 }
                 None => {
                     let reason = "where its arc begins is not known";
-                    self.unknown_with(statement, (reason, LEAVE), Some(circle));
+                    self.unknown_with(statement, reason, LEAVE, Some(circle));
                     self.state.place = Some(place);
                     return;
                 }
@@ -135,13 +135,14 @@ impl Reader<'_, '_> {
 
     /// A motion whose end or way is not known: refused, or left as it is written.
     pub fn unknown(&mut self, statement: &Statement, reason: &'static str) {
-        self.unknown_with(statement, (reason, LEAVE), None);
+        self.unknown_with(statement, reason, LEAVE, None);
     }
 
     fn unknown_with(
         &mut self,
         statement: &Statement,
-        (reason, remedy): (&'static str, &'static str),
+        reason: &'static str,
+        remedy: &'static str,
         circle: Option<&Circle>,
     ) {
         if self.program.options.unknown_targets == UnknownTargets::Refused {

@@ -99,7 +99,7 @@ impl Ends<'_> {
             b"LP" => (Shape::Polar { whole }, None),
             b"C" | b"CP" | b"CR" => (
                 Shape::Arc,
-                self.circle(kind.is("CR"), parsed, (plane, &end), turned)?,
+                self.circle(kind.is("CR"), parsed, plane, &end, turned)?,
             ),
             b"CT" | b"CTP" => {
                 let (from, to) = (self.state.in_plane(plane), plane.known(end));
@@ -208,7 +208,8 @@ impl Ends<'_> {
         &mut self,
         by_size: bool,
         parsed: &PathWords,
-        (plane, end): (Plane, &[Option<f64>; 3]),
+        plane: Plane,
+        end: &[Option<f64>; 3],
         turned: Option<f64>,
     ) -> Result<Option<Arc>, Reason> {
         let sense = parsed.sense.ok_or((

@@ -120,7 +120,8 @@ impl<D: Dialect> Run<'_, '_, D> {
         &self,
         tokens: &Range<usize>,
         kind: MotionKind,
-        (target, site): (Target, MotionSite),
+        target: Target,
+        site: MotionSite,
         [tool, work_object]: [FrameUse; 2],
     ) -> Motion {
         let file = self.file();

@@ -186,13 +186,14 @@ impl<D: Dialect> Run<'_, '_, D> {
     /// Data that statements of a routine, and the routines that they call, assign or give to what may change them.
     pub(crate) fn assigned_in(&self, routine: usize, statements: &[Statement]) -> Vec<Root> {
         let mut found = Vec::new();
-        self.collect_assigned((routine, statements), &mut BTreeSet::new(), &mut found);
+        self.collect_assigned(routine, statements, &mut BTreeSet::new(), &mut found);
         found
     }
 
     fn collect_assigned(
         &self,
-        (routine, statements): (usize, &[Statement]),
+        routine: usize,
+        statements: &[Statement],
         seen: &mut BTreeSet<usize>,
         found: &mut Vec<Root>,
     ) {
@@ -245,7 +246,7 @@ impl<D: Dialect> Run<'_, '_, D> {
         for called in called {
             if seen.insert(called) {
                 let body = &self.symbols.routines[called].routine.body;
-                self.collect_assigned((called, body), seen, found);
+                self.collect_assigned(called, body, seen, found);
             }
         }
     }

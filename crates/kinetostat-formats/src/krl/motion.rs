@@ -38,7 +38,7 @@ impl Run<'_, '_> {
         let file = self.file();
         let ends = ends_of(file, tokens, row.ends);
         let end_tokens = ends.last().cloned().unwrap_or(tokens.end..tokens.end);
-        are_apart(file, (row, tokens), &ends, &end_tokens)?;
+        are_apart(file, row, tokens, &ends, &end_tokens)?;
         let behind = behind_end(file, end_tokens.end);
         let rest = rest_of(file, behind..tokens.end, row.ends.are_steps())?;
         let before = (!rest.with.is_empty()).then(|| self.own.force.clone());
@@ -69,7 +69,7 @@ impl Run<'_, '_> {
             .map(|last| last.target.clone());
         let is_beyond = self.here.is_some_and(|here| self.own.beyond[here]);
         let mut end = match row.ends.are_steps() {
-            true => self.step_from(&end_tokens, from.as_ref(), (is_joint, rest.in_tool))?,
+            true => self.step_from(&end_tokens, from.as_ref(), is_joint, rest.in_tool)?,
             false => {
                 // Joint motions are not corrected: what goes on from there says whether it must be known.
                 let is_left = is_joint && self.is_elsewhere(&end_tokens);
@@ -196,7 +196,8 @@ impl Run<'_, '_> {
         &mut self,
         tokens: &Range<usize>,
         from: Option<&Target>,
-        (is_joint, in_tool): (bool, bool),
+        is_joint: bool,
+        in_tool: bool,
     ) -> Result<End, Reason> {
         let value = self.value(&expression_of(self.file(), tokens.clone()));
         let position = position_of(self.files, &value)
@@ -290,7 +291,8 @@ impl Run<'_, '_> {
 /// Between the ends of a circle stands a comma, and behind the last end a blank.
 fn are_apart(
     file: &TokenFile<'_>,
-    (row, tokens): (&MotionRow, &Range<usize>),
+    row: &MotionRow,
+    tokens: &Range<usize>,
     ends: &[Range<usize>],
     last: &Range<usize>,
 ) -> Result<(), Reason> {

@@ -18,7 +18,9 @@ const ROOTS: [&str; 4] = ["$ROBROOT", "$WORLD", "$ERSYSROOT", "$NULLFRAME"];
 /// Refuses an assignment of a value to such a variable.
 pub(crate) fn moves_no_points(
     file: &TokenFile<'_>,
-    (name, tokens, value): (&Name, &Range<usize>, &Range<usize>),
+    name: &Name,
+    tokens: &Range<usize>,
+    value: &Range<usize>,
 ) -> Result<(), Reason> {
     let is_watched = |all: &[&str]| all.iter().any(|one| name.is(one));
     if !is_watched(&ROOTS) && !is_watched(&["$IPO_MODE", "$EX_AX_IGNORE", "$TECH"]) {

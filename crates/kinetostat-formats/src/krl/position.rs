@@ -57,7 +57,7 @@ pub(crate) fn position_of(files: &[TokenFile<'_>], datum: &Datum) -> Result<Posi
         if same.count() > 1 {
             return Err("it states a component twice".to_owned());
         }
-        position.set(files, (datum, name), value)?;
+        position.set(files, datum, name, value)?;
     }
     Ok(position)
 }
@@ -67,7 +67,8 @@ impl Position {
     fn set(
         &mut self,
         files: &[TokenFile<'_>],
-        (whole, name): (&Datum, &Name),
+        whole: &Datum,
+        name: &Name,
         value: &Datum,
     ) -> Result<(), String> {
         if let Some(reason) = value.unknown_reason() {

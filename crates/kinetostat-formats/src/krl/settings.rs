@@ -136,7 +136,7 @@ impl Run<'_, '_> {
                 });
                 auxiliary_turn(&file.text(tokens), of_data.as_deref())?;
             }
-            _ => moves_no_points(file, (&name, tokens, &value.tokens))?,
+            _ => moves_no_points(file, &name, tokens, &value.tokens)?,
         }
         Ok(())
     }

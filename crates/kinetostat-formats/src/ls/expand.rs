@@ -43,7 +43,7 @@ pub(crate) fn expand_ls(
             true => FlatText::unchanged(file, 0),
             false => FlatText {
                 findings: run.reader.findings,
-                ..with_lines(lines, files, (layout, positions))?
+                ..with_lines(lines, files, layout, positions)?
             },
         };
         Ok((flat, run.motions))
@@ -58,7 +58,8 @@ pub(crate) fn expand_ls(
 fn with_lines(
     lines: FlatLines,
     files: &[SourceFile],
-    (layout, positions): (&Layout, &[Positions]),
+    layout: &Layout,
+    positions: &[Positions],
 ) -> Result<FlatText, Vec<ProgramError>> {
     let (file, bytes) = (&files[0], files[0].bytes());
     let (Some(first), Some(last), Some(section)) =
@@ -74,10 +75,10 @@ fn with_lines(
         return Err(refused(file, "its section /POS stands before its lines"));
     }
     let mut out = Written::new(file);
-    out.copy((file, 0), &(0..begin));
+    out.copy(file, 0, &(0..begin));
     out.bytes.extend_from_slice(&lines.written.bytes);
     out.origins.extend(lines.written.origins);
-    out.copy((file, 0), &(end..section.end));
+    out.copy(file, 0, &(end..section.end));
     for ((program, number), new) in lines.positions {
         let source = &files[program];
         let Some(position) = positions[program].all.get(&number) else {
@@ -90,9 +91,9 @@ fn with_lines(
             .take_while(|byte| byte.is_ascii_digit())
             .count();
         let text = [b"P[", new.to_string().as_bytes(), &text[2 + digits..]].concat();
-        out.line(&text, (program, source.line_of(position.span.start)));
+        out.line(&text, program, source.line_of(position.span.start));
     }
-    out.copy((file, 0), &(section.end..bytes.len()));
+    out.copy(file, 0, &(section.end..bytes.len()));
     let now = Layout::of(&out.bytes);
     let added = now.lines.len() as f64 - layout.lines.len() as f64;
     let bytes = numbered(&out.bytes, &now, added);

@@ -41,11 +41,11 @@ impl Run<'_, '_> {
 
     /// Writes the value that a counter gets.
     pub(super) fn write_counter(&mut self, at: usize, counter: &Name, value: f64) {
-        let origin = (self.program(), self.line(at));
+        let (program, line) = (self.program(), self.line(at));
         if let Some(flat) = &mut self.flat {
             flat.is_changed = true;
             let text = [counter.letters(), b"=", printed(value).as_bytes(), b" "].concat();
-            flat.line(&text, origin);
+            flat.line(&text, program, line);
         }
     }
 
@@ -54,7 +54,7 @@ impl Run<'_, '_> {
             return;
         }
         let program = self.program();
-        let (file, origin) = (self.file(), (program, self.line(at)));
+        let (file, number) = (self.file(), self.line(at));
         let mut edits = Edits::default();
         let is_remark = file.part(&part).trim_ascii_start().starts_with(b"!");
         if program > 0 && !is_remark {
@@ -68,7 +68,7 @@ impl Run<'_, '_> {
         };
         flat.is_changed |= program > 0 || at != flat.count || part != line.text;
         flat.count += 1;
-        flat.line(&text.unwrap_or_default(), origin);
+        flat.line(&text.unwrap_or_default(), program, number);
     }
 
     /// Puts the values of arguments in place of `AR[1]`.
@@ -135,7 +135,8 @@ impl Run<'_, '_> {
 
     pub(super) fn not_flat(&mut self, at: usize, why: &str) {
         if self.flat.is_some() {
-            self.fault(at, not_flat(why));
+            let (reason, remedy) = not_flat(why);
+            self.fault(at, reason, remedy);
         }
     }
 }

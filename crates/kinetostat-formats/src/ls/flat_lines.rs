@@ -32,8 +32,9 @@ impl FlatLines {
         self.written.origins.truncate(lines);
     }
 
-    pub(super) fn line(&mut self, text: &[u8], origin: (usize, usize)) {
+    pub(super) fn line(&mut self, text: &[u8], file: usize, line: usize) {
         // The writer numbers the lines.
-        self.written.line(&[b"   1:", text, b";"].concat(), origin);
+        self.written
+            .line(&[b"   1:", text, b";"].concat(), file, line);
     }
 }

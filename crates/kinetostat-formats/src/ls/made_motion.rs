@@ -217,7 +217,7 @@ impl Run<'_, '_> {
                 (position.tool, "UT", "UTOOL_NUM", self.modal.tool),
             ];
             own.into_iter().find_map(|(own, letters, word, now)| {
-                taught_otherwise((number, letters, own?), word, now)
+                taught_otherwise(number, letters, own?, word, now)
             })
         });
         let site = match &position.held {
@@ -329,7 +329,9 @@ impl Run<'_, '_> {
 
 /// Reason and remedy of a position that was taught with a frame or tool (`letters`, `own`) other than the one that may be in force.
 fn taught_otherwise(
-    (position, letters, own): (u32, &str, u32),
+    position: u32,
+    letters: &str,
+    own: u32,
     word: &str,
     now: InForce,
 ) -> Option<EndReason> {

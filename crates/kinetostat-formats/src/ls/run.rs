@@ -297,7 +297,7 @@ impl<'o, 'p> Run<'o, 'p> {
     }
 
     /// Notes a loop without an end, behind so many motions and statements.
-    pub(super) fn log_endless(&mut self, at: usize, (motions, beside): (usize, usize)) {
+    pub(super) fn log_endless(&mut self, at: usize, motions: usize, beside: usize) {
         self.ran_beside.truncate(beside);
         self.log(at);
         if let Some(last) = self.ran_beside.last_mut() {
@@ -306,7 +306,7 @@ impl<'o, 'p> Run<'o, 'p> {
     }
 
     /// Notes a fault of a step once.
-    pub(super) fn fault(&mut self, at: usize, (reason, remedy): (String, &'static str)) {
+    pub(super) fn fault(&mut self, at: usize, reason: impl Into<String>, remedy: &str) {
         let program = self.program();
         if self.noted.insert((program, at, "fault")) {
             let span = self.all.layouts[program].lines[at].whole.clone();

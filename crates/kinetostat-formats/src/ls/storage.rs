@@ -248,7 +248,7 @@ impl Run<'_, '_> {
                 self.given.insert(name);
                 self.values.insert(name, value);
             }
-            _ => self.fault(at, (FRAME_DATA.0.to_owned(), FRAME_DATA.1)),
+            _ => self.fault(at, FRAME_DATA.0, FRAME_DATA.1),
         }
     }
 

@@ -167,7 +167,8 @@ pub(crate) fn make_along(
         findings.extend(crowded(steps));
     }
     taken_for_granted(
-        (steps, states_configuration),
+        steps,
+        states_configuration,
         template,
         language,
         &kept,
@@ -187,7 +188,8 @@ pub(crate) fn make_along(
 
 /// The defaults that were used, and the rounding that the decimals of the template cause.
 fn taken_for_granted(
-    (steps, states_configuration): (&[Step], bool),
+    steps: &[Step],
+    states_configuration: bool,
     template: &Template,
     language: MakeLanguage,
     kept: &Kept,

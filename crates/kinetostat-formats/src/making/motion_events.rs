@@ -48,7 +48,8 @@ pub(crate) fn events_of_motions(program: &RobotProgram, file: usize) -> Vec<Sour
         events.extend(events_of_motion(
             program.language,
             source,
-            (motion, number),
+            motion,
+            number,
             before..next,
         ));
     }
@@ -60,7 +61,8 @@ pub(crate) fn events_of_motions(program: &RobotProgram, file: usize) -> Vec<Sour
 fn events_of_motion(
     language: Language,
     source: &SourceFile,
-    (motion, number): (&Motion, usize),
+    motion: &Motion,
+    number: usize,
     free: Range<usize>,
 ) -> Vec<SourceEvent> {
     let found = done_in_motion(language, source, motion);

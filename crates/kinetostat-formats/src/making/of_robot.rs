@@ -152,9 +152,7 @@ pub fn make_of_flat_robot(
         configurations::is_same(program.language, language) && template.configuration.is_none();
     let stated = template.configuration.as_deref();
     made.findings.extend(reconfigured::findings(
-        program,
-        robot,
-        (keeps, stated, language),
+        program, robot, keeps, stated, language,
     ));
     made.findings
         .extend(lost_configurations(program, &template, language));

@@ -90,10 +90,12 @@ pub(crate) fn tools_of_source(
         }
         made.findings.extend(renamed(
             program,
-            (tool, own),
+            tool,
+            own,
             &stated.frame,
             is_open,
-            (is_one, language),
+            is_one,
+            language,
         ));
         match (is_one || is_open, number) {
             (false, Some(number)) => {
@@ -155,10 +157,12 @@ fn loads_of_source(program: &RobotProgram, language: MakeLanguage) -> BTreeMap<N
 /// Finding on a tool whose number or name differs from the source.
 fn renamed(
     program: &RobotProgram,
-    (tool, own): (&FrameUse, Option<u32>),
+    tool: &FrameUse,
+    own: Option<u32>,
     frame: &StatedFrame,
     is_open: bool,
-    (is_one, language): (bool, MakeLanguage),
+    is_one: bool,
+    language: MakeLanguage,
 ) -> Option<MakeFinding> {
     let number = frame.number.unwrap_or(1);
     let written = match language {
@@ -220,7 +224,8 @@ fn own_number(program: &RobotProgram, tool: &FrameUse) -> Option<u32> {
 pub(crate) fn changes_of_source(
     program: &RobotProgram,
     robot: &RobotPath,
-    (of_moves, events): (&[usize], &[(usize, SourceEvent)]),
+    of_moves: &[usize],
+    events: &[(usize, SourceEvent)],
 ) -> Vec<(usize, u32)> {
     let all = &robot.tools;
     // One tool is changed to where the source has changes of tools.

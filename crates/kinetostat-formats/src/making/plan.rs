@@ -350,8 +350,8 @@ impl Planner<'_> {
         let by_joints = !self.begun || reconfigures;
         let is_joint = by_joints || (rapid && self.template.rapids == Rapids::Joint);
         if !is_joint || pieces.shape != Shape::Line {
-            let law = (self.language, &path.tool_axis);
-            self.turned.divide(motion, &mut pieces, law);
+            let axis = &path.tool_axis;
+            (self.turned).divide(motion, &mut pieces, self.language, axis);
         }
         if let Some(followed) = pieces.followed {
             self.otherwise

@@ -69,7 +69,9 @@ fn is_same(language: Language, one: &Configuration, other: &Configuration) -> bo
 pub(crate) fn findings(
     program: &RobotProgram,
     robot: &RobotPath,
-    (is_kept, stated, language): (bool, Option<&str>, MakeLanguage),
+    is_kept: bool,
+    stated: Option<&str>,
+    language: MakeLanguage,
 ) -> Option<MakeFinding> {
     if !language.is_of_an_arm() {
         return None;

@@ -21,7 +21,7 @@ pub(crate) fn course_of(program: &RobotProgram, robot: &RobotPath) -> Course {
         let mut events = std::mem::take(&mut course.events);
         events.iter_mut().for_each(|(_, event)| event.only_words());
         let moves = numbers(robot, |line| line);
-        course.tools = changes_of_source(program, robot, (&moves, &events));
+        course.tools = changes_of_source(program, robot, &moves, &events);
         course.events = events;
         course.language = Some(program.language);
         return course;
@@ -49,7 +49,7 @@ pub(crate) fn course_of(program: &RobotProgram, robot: &RobotPath) -> Course {
     placed.sort_by_key(|(order, _)| *order);
     let moves = numbers(robot, |line| order.get(&line).copied().unwrap_or(line));
     Course {
-        tools: changes_of_source(program, robot, (&moves, &placed)),
+        tools: changes_of_source(program, robot, &moves, &placed),
         of_moves: Some(moves),
         events: placed,
         left_out: by_line.into_values().flatten().collect(),

@@ -166,7 +166,7 @@ impl Walk<'_> {
                     self.master.turning.turn(SpindleRotation::Stopped);
                 }
                 let number = self.variables.number(bytes, value).ok();
-                self.master.value((&name, text), number, purpose)
+                self.master.value(&name, text, number, purpose)
             }
         }
     }

@@ -35,7 +35,8 @@ impl Master {
     /// A letter or a name with its number.
     pub(crate) fn value(
         &mut self,
-        (name, text): (&str, String),
+        name: &str,
+        text: String,
         number: Option<f64>,
         purpose: &mut Purpose,
     ) -> Option<Said> {
@@ -50,7 +51,7 @@ impl Master {
             ("G", Some(0)) => return self.code(number.and_then(whole), text, purpose),
             ("M", Some(extension)) => {
                 let number = number.and_then(whole);
-                return Some(self.function(number, (extension, is_master), text, purpose));
+                return Some(self.function(number, extension, is_master, text, purpose));
             }
             ("S", Some(_)) if purpose.limits => return early(EventKind::Spindle, Word::Other),
             ("S", Some(_)) if purpose.dwells => return early(EventKind::Dwell, Word::Other),
@@ -113,7 +114,8 @@ impl Master {
     fn function(
         &mut self,
         number: Option<u32>,
-        (extension, is_master): (u32, bool),
+        extension: u32,
+        is_master: bool,
         text: String,
         purpose: &mut Purpose,
     ) -> Said {

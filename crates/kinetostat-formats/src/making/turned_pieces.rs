@@ -40,7 +40,8 @@ impl Turned {
         &mut self,
         motion: &Move,
         pieces: &mut Pieces,
-        (language, tool_axis): (MakeLanguage, &Vector3<f64>),
+        language: MakeLanguage,
+        tool_axis: &Vector3<f64>,
     ) {
         let Some(turn) = motion.tool_turn.as_deref() else {
             return;
@@ -52,7 +53,7 @@ impl Turned {
         let apart = |ends: &[f64]| {
             let starts = std::iter::once(0.0).chain(ends.iter().copied());
             let each = starts.zip(ends);
-            let each = each.map(|(from, to)| apart(turn, [from, *to], (language, tool_axis)));
+            let each = each.map(|(from, to)| apart(turn, [from, *to], language, tool_axis));
             each.fold(0.0, larger)
         };
         let most = SAME_DEG.to_radians();
@@ -125,7 +126,8 @@ fn divided(ends: &[f64], count: usize) -> Vec<f64> {
 fn apart(
     turn: &ToolTurn,
     [from, to]: [f64; 2],
-    (language, tool_axis): (MakeLanguage, &Vector3<f64>),
+    language: MakeLanguage,
+    tool_axis: &Vector3<f64>,
 ) -> f64 {
     let ends = [turn.at(from), turn.at(to)];
     let made = law(ends, language, tool_axis);

@@ -76,7 +76,8 @@ pub(crate) fn axes_of_motions(
             let follows = stated && motion.follows.is_some();
             match of_motion(
                 rotary,
-                (&last, &axis),
+                &last,
+                &axis,
                 follows && on_great_circle(program, index),
             ) {
                 Ok(found) => own = found,
@@ -84,7 +85,7 @@ pub(crate) fn axes_of_motions(
                 Err(reason) => match rotary.angles_towards(&axis, &last) {
                     Ok(angles) if is_rapid(motion) => own.end_deg = angles,
                     _ => {
-                        faults.push(fault(program, motion, (rotary, &axis), reason));
+                        faults.push(fault(program, motion, rotary, &axis, reason));
                         own.end_deg = nearest_of(rotary, &axis, &last);
                     }
                 },
@@ -102,7 +103,8 @@ pub(crate) fn axes_of_motions(
 
 fn of_motion(
     rotary: &RotaryAxes,
-    (last, axis): (&[f64], &Vector3<f64>),
+    last: &[f64],
+    axis: &Vector3<f64>,
     on_circle: bool,
 ) -> Result<AxesOfMotion, OffCircle> {
     if on_circle {
@@ -136,7 +138,8 @@ fn nearest_of(rotary: &RotaryAxes, axis: &Vector3<f64>, last: &[f64]) -> Vec<f64
 fn fault(
     program: &RobotProgram,
     motion: &Motion,
-    (rotary, end): (&RotaryAxes, &Vector3<f64>),
+    rotary: &RotaryAxes,
+    end: &Vector3<f64>,
     reason: OffCircle,
 ) -> PathError {
     let along = |axis: &Vector3<f64>| format!("({:.4}, {:.4}, {:.4})", axis.x, axis.y, axis.z);

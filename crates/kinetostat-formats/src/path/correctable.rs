@@ -16,6 +16,7 @@ use crate::model::site::TargetSite;
 use crate::options::{ReadOptions, WriteOptions};
 use crate::path::fault::broken;
 use crate::path::header::{mark_line, with_header};
+use crate::path::kept_lines::ReadProgram;
 use crate::path::of_program::{RobotPath, path_of};
 use crate::path::options::PathOptions;
 use crate::path::read_again::check;
@@ -395,7 +396,14 @@ impl MachineProgram for Correctable<'_> {
     ) -> Result<Verification, PathWriteError> {
         let files = self.files(written);
         let (program, again) = self.read_again(&files)?;
-        let input = (self.program, self.path);
-        check(input, (&program, &again), written, options)
+        let input = ReadProgram {
+            program: self.program,
+            path: self.path,
+        };
+        let output = ReadProgram {
+            program: &program,
+            path: &again,
+        };
+        check(input, output, written, options)
     }
 }

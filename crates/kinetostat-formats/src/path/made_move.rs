@@ -53,7 +53,7 @@ impl Maker<'_> {
             curve,
             start: a,
             end: b,
-            tool_turn: self.turn_of_tool(index, known, (from, to)),
+            tool_turn: self.turn_of_tool(index, known, from, to),
             extra: Vec::new(),
             feed: motion.speed.mm_per_s.map(|speed| Feed {
                 mode: FeedMode::PerMinute,
@@ -93,7 +93,8 @@ impl Maker<'_> {
         &self,
         index: usize,
         known: Knowledge,
-        (from, to): (Isometry3<f64>, Isometry3<f64>),
+        from: Isometry3<f64>,
+        to: Isometry3<f64>,
     ) -> Option<Box<ToolTurn>> {
         let motion = &self.program.motions[index];
         match &self.rotary {

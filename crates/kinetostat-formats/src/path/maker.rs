@@ -60,9 +60,14 @@ impl<'a> Maker<'a> {
                 maker.tool_axis = rotary.tool_at_zero.inverse() * Vector3::z();
             }
             None => {
-                let rule = (options.turn_about_axis, options.tool_axis);
                 let frame = |motion: &Motion| maker.frame_in_path(motion);
-                maker.turns = Some(axis_turns(program, rule, frame, is_rapid)?);
+                maker.turns = Some(axis_turns(
+                    program,
+                    options.turn_about_axis,
+                    options.tool_axis,
+                    frame,
+                    is_rapid,
+                )?);
             }
         }
         Ok(maker)

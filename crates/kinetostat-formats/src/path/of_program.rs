@@ -160,7 +160,8 @@ fn path_of_maker(maker: &Maker<'_>) -> Path {
     warnings.dedup_by(|b, a| a.text == b.text);
     let poses = |index: usize| maker.end_in_path(index).map(|pose| pose.translation.vector);
     warnings.extend(warnings_of(
-        (maker.program, maker.options),
+        maker.program,
+        maker.options,
         &moves,
         maker.in_base,
         poses,

@@ -30,7 +30,8 @@ const NEAR_HALF_A_TURN: f64 = 1.75e-4;
 
 /// Warnings of a path; `place` says where a motion ends.
 pub(crate) fn warnings_of(
-    (program, options): (&RobotProgram, &PathOptions),
+    program: &RobotProgram,
+    options: &PathOptions,
     moves: &[Move],
     in_base: bool,
     place: impl Fn(usize) -> Option<Vector3<f64>>,

@@ -54,7 +54,7 @@ impl Run<'_, '_> {
             }
             _ => (reason, WRITE_IT),
         })?;
-        let site = self.site(expression, (&value, &pose), statement);
+        let site = self.site(expression, &value, &pose, statement);
         Ok(Found { pose, site })
     }
 
@@ -62,7 +62,8 @@ impl Run<'_, '_> {
     fn site(
         &mut self,
         expression: &Expression,
-        (value, pose): (&Datum, &PoseTarget),
+        value: &Datum,
+        pose: &PoseTarget,
         statement: &Range<usize>,
     ) -> TargetSite {
         let file = self.file();

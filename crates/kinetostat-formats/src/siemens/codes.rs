@@ -74,7 +74,7 @@ impl Reader<'_> {
         }
         words.code = Some(item.span.clone());
         self.state.code = code;
-        self.state.code_stated = true;
+        self.state.stated.code = true;
     }
 
     fn g_code(&mut self, number: u32, item: &Item, words: &mut Words) {

@@ -6,13 +6,13 @@ use crate::model::motion::MotionKind;
 use crate::siemens::block::{Block, How, Item, What};
 use crate::siemens::frames::Change;
 use crate::siemens::made_motion::Known;
-use crate::siemens::state::Code;
+use crate::siemens::state::{Code, StatedModes};
 use crate::siemens::walker::Reader;
 use crate::siemens::words::{Purpose, Words};
 
 impl Reader<'_> {
-    /// Does what the words of a block say; `stated`: whether code and feed were stated behind the last motion before it.
-    pub(crate) fn act(&mut self, block: &Block, words: Words, stated: (bool, bool)) {
+    /// Does what the words of a block say; `stated` are the modal words between the last motion and this block.
+    pub(crate) fn act(&mut self, block: &Block, words: Words, stated: StatedModes) {
         self.change_tool(&words);
         self.state.standing.begin_block();
         if let Some(change) = words.frame {
@@ -160,7 +160,7 @@ impl Reader<'_> {
         }
     }
 
-    fn motion(&mut self, block: &Block, words: &Words, stated: (bool, bool)) {
+    fn motion(&mut self, block: &Block, words: &Words, stated: StatedModes) {
         if self.no_place_by_axes(block) {
             let reason = "its places are not those of the tool's tip in the part";
             return self.unknown(block, words, stated, [None; 3], reason);

@@ -93,18 +93,11 @@ impl Place<'_> {
         };
         let is_elsewhere = self.written.counts_behind_frame(axis, self.stated[axis]);
         self.stated[axis] = false;
-        let value = put(
-            self.file,
-            word,
-            (old, wanted_mm),
-            match is_elsewhere {
-                true => f64::INFINITY,
-                false => self.off[axis],
-            },
-            unit,
-            least,
-            edits,
-        );
+        let off = match is_elsewhere {
+            true => f64::INFINITY,
+            false => self.off[axis],
+        };
+        let value = self.put(word, old, wanted_mm, off, edits);
         self.off[axis] = value - old;
     }
 
@@ -130,7 +123,7 @@ impl Place<'_> {
                     true => f64::INFINITY,
                     false => 0.0,
                 };
-                put(self.file, word, (old, wanted_mm), off, unit, least, edits);
+                self.put(word, old, wanted_mm, off, edits);
             }
             None => {
                 let number = AxisText::plain(format!("{:.least$}", wanted_mm / unit));
@@ -138,43 +131,43 @@ impl Place<'_> {
             }
         }
     }
-}
 
-/// Puts a place in a word; where the tool is then along it, mm.
-fn put(
-    file: &SourceFile,
-    word: &Coordinate,
-    (old_mm, wanted_mm): (f64, f64),
-    off_mm: f64,
-    unit: f64,
-    least: usize,
-    edits: &mut Edits,
-) -> f64 {
-    let (old, wanted) = (old_mm / unit, wanted_mm / unit);
-    if word.literal && !word.step {
-        let original = file.part(&word.number);
-        let text = printed(original, word.written, wanted, least, Width::Free);
-        if text == original {
+    /// Puts a place in a word; where the tool is then along it, mm.
+    fn put(
+        &self,
+        word: &Coordinate,
+        old_mm: f64,
+        wanted_mm: f64,
+        off_mm: f64,
+        edits: &mut Edits,
+    ) -> f64 {
+        let (file, unit, least) = (self.file, self.written.unit_mm, self.least);
+        let (old, wanted) = (old_mm / unit, wanted_mm / unit);
+        if word.literal && !word.step {
+            let original = file.part(&word.number);
+            let text = printed(original, word.written, wanted, least, Width::Free);
+            if text == original {
+                return old_mm;
+            }
+            let value: Option<f64> = std::str::from_utf8(&text)
+                .ok()
+                .and_then(|t| t.trim().parse().ok());
+            edits.replace(word.number.clone(), text);
+            return value.map_or(wanted_mm, |value| value * unit);
+        }
+        let number = AxisText::plain(format!("{wanted:.least$}"));
+        let same = AxisText::plain(format!("{old:.least$}")).value == number.value;
+        if same && (!word.step || off_mm == 0.0) {
             return old_mm;
         }
-        let value: Option<f64> = std::str::from_utf8(&text)
-            .ok()
-            .and_then(|t| t.trim().parse().ok());
-        edits.replace(word.number.clone(), text);
-        return value.map_or(wanted_mm, |value| value * unit);
+        let name = file.part(&(word.word.start..word.whole.start));
+        let name = String::from_utf8_lossy(name);
+        let name = name.trim_end().trim_end_matches('=').trim_end();
+        let text = match word.step || word.wrapped {
+            true => format!("{name}=AC({})", number.text),
+            false => format!("{name}={}", number.text),
+        };
+        edits.replace(word.word.clone(), text);
+        number.value * unit
     }
-    let number = AxisText::plain(format!("{wanted:.least$}"));
-    let same = AxisText::plain(format!("{old:.least$}")).value == number.value;
-    if same && (!word.step || off_mm == 0.0) {
-        return old_mm;
-    }
-    let name = file.part(&(word.word.start..word.whole.start));
-    let name = String::from_utf8_lossy(name);
-    let name = name.trim_end().trim_end_matches('=').trim_end();
-    let text = match word.step || word.wrapped {
-        true => format!("{name}=AC({})", number.text),
-        false => format!("{name}={}", number.text),
-    };
-    edits.replace(word.word.clone(), text);
-    number.value * unit
 }

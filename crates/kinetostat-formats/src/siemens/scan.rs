@@ -160,7 +160,7 @@ impl Reader<'_> {
         if let Some(called) = called_by(self.file, &block.items) {
             return self.outside_call(called);
         }
-        let (code, feed) = (self.state.code_stated, self.state.feed_stated);
+        let stated = self.state.stated;
         let faults = self.out.faults.len();
         let words = self.words(block);
         if self.out.faults.len() > faults {
@@ -174,7 +174,7 @@ impl Reader<'_> {
             }
             return;
         }
-        self.act(block, words, (code, feed));
+        self.act(block, words, stated);
     }
 
     /// A cycle whose way is the control's own: it begins over the hole and ends above it.

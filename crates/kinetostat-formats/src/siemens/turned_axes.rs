@@ -23,7 +23,8 @@ impl Reader<'_> {
     pub(crate) fn rotary_word(
         &mut self,
         item: &Item,
-        (place, how): (usize, How),
+        place: usize,
+        how: How,
         value: &Expression,
         words: &mut Words,
     ) {

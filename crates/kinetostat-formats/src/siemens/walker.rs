@@ -14,7 +14,7 @@ use crate::model::stated_axes::StatedAxes;
 use crate::options::ReadOptions;
 use crate::siemens::block::How;
 use crate::siemens::expression::Expression;
-use crate::siemens::state::{Angles, Code, Coordinate, Feed, NO_SHIFT_MM, State};
+use crate::siemens::state::{Angles, Code, Coordinate, Feed, NO_SHIFT_MM, State, StatedModes};
 use crate::siemens::tokens::Broken;
 use crate::siemens::values::Variables;
 use crate::text::finding::Finding;
@@ -73,12 +73,11 @@ pub(crate) struct Written {
     pub at_end: Vec<Range<usize>>,
     pub code: Code,
     pub code_word: Option<Range<usize>>,
-    /// A code was stated in a block between the motion before and this one.
-    pub code_stated: bool,
     /// The feed in force, if it is known, as written.
     pub feed: Option<Feed>,
     pub feed_word: Option<(Range<usize>, Option<Range<usize>>)>,
-    pub feed_stated: bool,
+    /// Words that were stated in blocks between the motion before and this one.
+    pub stated: StatedModes,
     /// Transformation from the axes of its numbers to those of the part.
     pub frame: Isometry3<f64>,
     pub unit_mm: f64,

@@ -114,8 +114,8 @@ impl Run<'_, '_> {
         site.indivisible = is_timed.then_some("its time is stated, not its speed");
         site.zone = given("R").map(|blend| file.span(&blend.tokens));
         let frames = [self.own.tool.clone(), work_object];
-        let mut motion = self.made_motion(tokens, kind, (target, site), frames);
-        (motion.speed, motion.site.speed) = self.speed(row, given("V"), (is_timed, tokens));
+        let mut motion = self.made_motion(tokens, kind, target, site, frames);
+        (motion.speed, motion.site.speed) = self.speed(row, given("V"), is_timed, tokens);
         let blend = given("R").map_or(Some(0.0), |blend| self.value(blend).as_number());
         motion.zone = match blend {
             Some(0.0) => Zone::Exact,
@@ -140,7 +140,8 @@ impl Run<'_, '_> {
         &mut self,
         row: &MotionRow,
         stated: Option<&Expression>,
-        (is_timed, tokens): (bool, &Range<usize>),
+        is_timed: bool,
+        tokens: &Range<usize>,
     ) -> (Speed, Option<SpeedSite>) {
         // The manual's default; joints turn by another unit.
         let value = stated.map_or(Some(0.25), |stated| self.value(stated).as_number());

@@ -105,7 +105,7 @@ impl Run<'_, '_> {
         });
         self.say_beside(tokens, format!("{ACCELERATION}{}", said.concat()));
         let frames = [tool, own.frame];
-        let mut motion = self.made_motion(tokens, kind, (own.target, site), frames);
+        let mut motion = self.made_motion(tokens, kind, own.target, site, frames);
         (motion.speed, motion.zone) = described;
         Ok(motion)
     }

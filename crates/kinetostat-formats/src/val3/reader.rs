@@ -112,7 +112,7 @@ impl<'a> Application<'a> {
         order.sort_by_key(|(_, file)| is_program(file));
         let contents = order
             .into_iter()
-            .map(|file| content_of(file, &mut scalars, faults));
+            .map(|(index, file)| content_of(index, file, &mut scalars, faults));
         let mut contents: Vec<_> = contents.collect();
         contents.sort_by_key(|content| content.file.index);
         let mut own = Self {
@@ -165,14 +165,14 @@ pub(crate) fn is_program(file: &SourceFile) -> bool {
 /// Place below the line of `begin` of the first program.
 pub(crate) fn below_begin(program: &[u8]) -> Option<usize> {
     let file = SourceFile::new("", program);
-    let content = content_of((0, &file), &mut BTreeSet::new(), &mut Vec::new());
+    let content = content_of(0, &file, &mut BTreeSet::new(), &mut Vec::new());
     let begin = content.drafts.first()?.code.start;
     Some(file.start_of(content.file.line_of(begin) + 1))
 }
 
 /// Names of files of programs that a file calls.
 pub(crate) fn called_by(file: &SourceFile) -> Vec<String> {
-    let content = content_of((0, file), &mut BTreeSet::new(), &mut Vec::new()).file;
+    let content = content_of(0, file, &mut BTreeSet::new(), &mut Vec::new()).file;
     let calls = (0..content.tokens.len()).filter(|at| content.is_word(*at, "CALL"));
     calls
         .map(|at| format!("{}.pgx", content.text(&(at + 1..at + 2))))

@@ -22,10 +22,10 @@ pub(crate) struct Val3Syntax;
 impl Syntax for Val3Syntax {
     fn names(&self, program: &RobotProgram) -> BTreeSet<Vec<u8>> {
         let mut names = BTreeSet::new();
-        for file in program.files.iter().enumerate() {
-            let content = content_of(file, &mut BTreeSet::new(), &mut Vec::new());
+        for (index, file) in program.files.iter().enumerate() {
+            let content = content_of(index, file, &mut BTreeSet::new(), &mut Vec::new());
             let words = words_of(&content.file.tokens).into_iter();
-            names.extend(words.map(|word| file.1.part(&word).to_ascii_uppercase()));
+            names.extend(words.map(|word| file.part(&word).to_ascii_uppercase()));
         }
         names
     }

@@ -43,7 +43,8 @@ const SAVE_IT: &str = "save the application again with the editor of the control
 
 /// The content of a file; `scalars` are the data without an index, to which those of the file are added.
 pub(super) fn content_of<'a>(
-    (index, source): (usize, &'a SourceFile),
+    index: usize,
+    source: &'a SourceFile,
     scalars: &mut BTreeSet<Name>,
     faults: &mut Vec<ProgramError>,
 ) -> Content<'a> {

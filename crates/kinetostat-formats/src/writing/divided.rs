@@ -114,7 +114,7 @@ impl Writer<'_> {
         };
         for (piece, axes) in before {
             let speed = speed_of(motion, piece, stated)?.map(|(_, text)| text);
-            inserted.extend(self.inserted(motion, (piece, axes), speed.as_deref())?);
+            inserted.extend(self.inserted(motion, piece, axes, speed.as_deref())?);
         }
         self.edits[motion.file].replace(motion.span.start..motion.span.start, inserted);
         self.state_speed(motion, own_speed);
@@ -125,7 +125,8 @@ impl Writer<'_> {
     fn inserted(
         &mut self,
         motion: &Motion,
-        (piece, axes): (&Piece, &AxesOfPiece),
+        piece: &Piece,
+        axes: &AxesOfPiece,
         speed: Option<&[u8]>,
     ) -> Result<Vec<u8>, Reason> {
         let end = motion.target.pose().ok_or(NO_END)?;

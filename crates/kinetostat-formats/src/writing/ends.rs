@@ -37,7 +37,7 @@ impl Writer<'_> {
         if let TargetSite::Joints(text) = site {
             let end = motion.target.pose().ok_or(NO_END)?;
             let file = &self.program.files[motion.file];
-            return row_of_joints(file, text, (wanted, end.orientation)).ok_or(NO_JOINTS);
+            return row_of_joints(file, text, wanted, end.orientation).ok_or(NO_JOINTS);
         }
         if let TargetSite::Replaced(text) = site {
             let file = &self.program.files[motion.file];
@@ -92,7 +92,7 @@ impl Writer<'_> {
             }
             (TargetSite::Joints(text), Some(wanted)) => {
                 let own = motion.target.pose().ok_or(NO_END)?.orientation;
-                put_joints(file, text, (&wanted, own), edits).ok_or(NO_JOINTS)?;
+                put_joints(file, text, &wanted, own, edits).ok_or(NO_JOINTS)?;
             }
             (TargetSite::Offset { call, literal, .. }, Some(wanted))
                 if wanted.orientation.is_some() =>
@@ -141,7 +141,8 @@ const DECIMALS: f64 = 6.0;
 fn put_joints(
     file: &SourceFile,
     text: &JointsText,
-    (wanted, own): (&Wanted<'_>, UnitQuaternion<f64>),
+    wanted: &Wanted<'_>,
+    own: UnitQuaternion<f64>,
     edits: &mut Edits,
 ) -> Option<()> {
     let rotation = wanted.orientation.unwrap_or(own);
@@ -160,10 +161,11 @@ fn put_joints(
 fn row_of_joints(
     file: &SourceFile,
     text: &JointsText,
-    pose: (&Wanted<'_>, UnitQuaternion<f64>),
+    wanted: &Wanted<'_>,
+    own: UnitQuaternion<f64>,
 ) -> Option<Vec<u8>> {
     let mut edits = Edits::default();
-    put_joints(file, text, pose, &mut edits)?;
+    put_joints(file, text, wanted, own, &mut edits)?;
     edits.applied_to_part(file.bytes(), &text.whole)
 }
 

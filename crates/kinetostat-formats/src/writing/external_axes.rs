@@ -21,7 +21,8 @@ pub(crate) fn shared_axes(
     program: &RobotProgram,
     motion: &Motion,
     ways: &[AxisWay],
-    (text, pieces): (Option<&PoseText>, &[&Piece]),
+    text: Option<&PoseText>,
+    pieces: &[&Piece],
 ) -> Result<Vec<AxesOfPiece>, WriteError> {
     let mut axes = vec![AxesOfPiece::default(); pieces.len()];
     if pieces.len() < 2 || ways.is_empty() {

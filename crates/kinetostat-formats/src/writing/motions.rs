@@ -18,10 +18,7 @@ use crate::writing::piece::{Piece, REPEATED, REPEATED_FOR_GOOD, Reason, SAME_MM,
 use crate::writing::syntax::Syntax;
 
 /// True if two runs of one statement take the same pieces: its numbers stand once.
-fn is_same_way(
-    (first, pieces): (&Motion, &[&Piece]),
-    (again, others): (&Motion, &[&Piece]),
-) -> bool {
+fn is_same_way(first: &Motion, pieces: &[&Piece], again: &Motion, others: &[&Piece]) -> bool {
     let near = |one: &Piece, other: &Piece| {
         let turn = match (one.orientation, other.orientation) {
             (Some(one), Some(other)) => one.angle_to(&other) <= SAME_RAD,
@@ -83,7 +80,7 @@ pub(crate) fn write_with(
         let first = *(first_runs.entry((motion.file, motion.span.start))).or_insert(index);
         if first != index {
             let before = of_motion.get(&first).map_or(&[][..], Vec::as_slice);
-            if !is_same_way((&program.motions[first], before), (motion, pieces)) {
+            if !is_same_way(&program.motions[first], before, motion, pieces) {
                 refused.add(
                     motion,
                     match syntax.is_written_flat() {
@@ -95,7 +92,7 @@ pub(crate) fn write_with(
             continue;
         }
         let text = text_of(program, &motion.site.target);
-        let axes = shared_axes(program, motion, ways, (text, pieces))?;
+        let axes = shared_axes(program, motion, ways, text, pieces)?;
         let pieces: Vec<(&Piece, &AxesOfPiece)> = pieces.iter().copied().zip(&axes).collect();
         if let Err(reason) = writer.write_motion(motion, &pieces) {
             refused.add(motion, reason);

@@ -128,7 +128,7 @@ impl Run<'_> {
     }
 
     fn copy(&mut self, part: Range<usize>) {
-        self.written.copy((self.file, 0), &part);
+        self.written.copy(self.file, 0, &part);
     }
 
     fn line(&mut self, text: &str, from: &Statement) {
@@ -139,7 +139,7 @@ impl Run<'_> {
                 .extend_from_slice(self.file.line_ending());
         }
         let line = self.file.line_of(from.span.start);
-        self.written.line(text.as_bytes(), (0, line));
+        self.written.line(text.as_bytes(), 0, line);
     }
 
     fn take_feed(&mut self, feed: Option<String>, from: &Statement) {
@@ -246,7 +246,7 @@ impl Run<'_> {
         let Some(Some(cycle)) = self.cycle.clone() else {
             return;
         };
-        let done = self.written(statement, (place, &cycle));
+        let done = self.written(statement, place, &cycle);
         if let Err((reason, remedy)) = done {
             self.fault(statement, reason, remedy);
             self.place = None;
@@ -256,7 +256,8 @@ impl Run<'_> {
     fn written(
         &mut self,
         statement: &Statement,
-        (place, cycle): (Option<Vector3<f64>>, &Cycle),
+        place: Option<Vector3<f64>>,
+        cycle: &Cycle,
     ) -> Result<(), Wrong> {
         let at = place.ok_or((
             "the place of the hole is not three or six numbers".to_owned(),
@@ -267,7 +268,7 @@ impl Run<'_> {
             axis: self.axis,
             unit_mm: self.unit_mm,
         };
-        for part in hole.parts(cycle, (self.place, self.began), &self.spindle)? {
+        for part in hole.parts(cycle, self.place, self.began, &self.spindle)? {
             match part {
                 Part::Text(text) => self.line(&text, statement),
                 Part::Rapid(to) if self.place.is_some_and(|from| (to - from).amax() < SAME) => {}

@@ -44,7 +44,8 @@ impl Hole {
     pub(crate) fn parts(
         &self,
         cycle: &Cycle,
-        (from, began): (Option<Vector3<f64>>, Option<Vector3<f64>>),
+        from: Option<Vector3<f64>>,
+        began: Option<Vector3<f64>>,
         spindle: &Spindle,
     ) -> Result<Vec<Part>, Wrong> {
         let mut parts = Vec::new();

@@ -50,8 +50,9 @@ pub(crate) fn written_out(
         match corner {
             Ok(corner) => corners.push(corner),
             Err((span, why, remedy)) => {
-                let why = (not_followed(&why), remedy);
-                faults.push(ProgramError::of_flat(&flat, files, span.start, why));
+                let why = not_followed(&why);
+                let fault = ProgramError::of_flat(&flat, files, span.start, why, remedy);
+                faults.push(fault);
             }
         }
     }
@@ -60,7 +61,7 @@ pub(crate) fn written_out(
         return Err(faults);
     }
     let edits = edits_of(&flat.file, &corners, &found.polar);
-    edited(flat, (edits, &BTreeMap::new()), files, AS_ARC)
+    edited(flat, edits, &BTreeMap::new(), files, AS_ARC)
 }
 
 /// The changes of a flat text; `polar` holds the LP blocks that count on a radius or an angle of before, with their ends.

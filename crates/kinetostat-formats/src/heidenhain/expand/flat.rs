@@ -1,7 +1,7 @@
 //! A program run once and written flat.
 
 use crate::error::ProgramError;
-use crate::flat_run::{MOST_STEPS, Runs, Written};
+use crate::flat_run::{BlockId, MOST_STEPS, Runs, Written};
 use crate::heidenhain::expand::aside::led_aside;
 use crate::heidenhain::expand::corners::written_out;
 use crate::heidenhain::expand::program::Program;
@@ -98,7 +98,7 @@ fn run_within(
         parameters,
         frames: Vec::new(),
         written: Written::new(main.file),
-        at: Some((0, 0)),
+        at: Some(BlockId { file: 0, block: 0 }),
         cycle: None,
         pecking: [None; 6],
         axis: "Z",
@@ -110,6 +110,5 @@ fn run_within(
     };
     run.begin();
     run.run(most_steps);
-    run.written
-        .into_flat(main.file, (Vec::new(), findings), out)
+    run.written.into_flat(main.file, Vec::new(), findings, out)
 }

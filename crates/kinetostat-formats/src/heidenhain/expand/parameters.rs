@@ -1,5 +1,6 @@
 //! Q parameters: what gives them values, and blocks with values in their place.
 
+use crate::flat_run::BlockId;
 use crate::heidenhain::digits::length;
 use crate::heidenhain::expand::expression::value_of;
 use crate::heidenhain::expand::run::{Fault, Run};
@@ -12,8 +13,8 @@ use crate::text::number::short;
 
 impl Run<'_> {
     /// Puts values into parameters: `Q1 = ...`, more of them in a cycle.
-    pub(crate) fn assign(&mut self, at: (usize, usize), words: &[Word]) -> Result<(), Fault> {
-        let bytes = self.programs[at.0].file.bytes();
+    pub(crate) fn assign(&mut self, at: BlockId, words: &[Word]) -> Result<(), Fault> {
+        let bytes = self.programs[at.file].file.bytes();
         let is_name = |word: &Word| {
             matches!(word.letters.letters(), b"Q" | b"QL" | b"QR") && word.whole().is_some()
         };
@@ -55,9 +56,9 @@ impl Run<'_> {
     }
 
     /// The text of a block with values in place of its parameters.
-    pub(crate) fn text(&self, at: (usize, usize), words: &[Word]) -> Result<Vec<u8>, Fault> {
-        let program = &self.programs[at.0];
-        let block = &program.blocks[at.1];
+    pub(crate) fn text(&self, at: BlockId, words: &[Word]) -> Result<Vec<u8>, Fault> {
+        let program = &self.programs[at.file];
+        let block = &program.blocks[at.block];
         let bytes = program.file.bytes();
         let mut edits = Edits::default();
         for (index, word) in words.iter().enumerate() {
@@ -105,11 +106,7 @@ impl Run<'_> {
         })
     }
 
-    pub(crate) fn substituted(
-        &mut self,
-        at: (usize, usize),
-        words: &[Word],
-    ) -> Result<Vec<u8>, Fault> {
+    pub(crate) fn substituted(&mut self, at: BlockId, words: &[Word]) -> Result<Vec<u8>, Fault> {
         let text = self.text(at, words)?;
         self.write(&text, at);
         Ok(text)

@@ -1,7 +1,7 @@
 //! State of a run: position, written text, modal state.
 
 use crate::error::ProgramError;
-use crate::flat_run::{Place, Written};
+use crate::flat_run::{BlockId, Written};
 use crate::heidenhain::expand::program::Program;
 use crate::heidenhain::expand::values::{Local, Values};
 use crate::options::ReadOptions;
@@ -37,7 +37,7 @@ pub(crate) struct Run<'p> {
     pub frames: Vec<Frame>,
     pub written: Written,
     /// The block that runs; none at the end.
-    pub at: Option<Place>,
+    pub at: Option<BlockId>,
     /// The number of the cycle that a call runs.
     pub cycle: Option<u32>,
     /// Numbers of cycle 1 by their lines.
@@ -59,7 +59,7 @@ pub(crate) struct Run<'p> {
 /// Continuation of the run.
 pub(crate) enum Next {
     Block,
-    At(usize, usize),
+    At(BlockId),
     End,
 }
 
@@ -67,37 +67,32 @@ pub(crate) enum Next {
 pub(crate) type Fault = ProgramError;
 
 impl Run<'_> {
-    pub(crate) fn fault(
-        &self,
-        at: (usize, usize),
-        reason: impl Into<String>,
-        remedy: &str,
-    ) -> Fault {
-        let program = &self.programs[at.0];
+    pub(crate) fn fault(&self, at: BlockId, reason: impl Into<String>, remedy: &str) -> Fault {
+        let program = &self.programs[at.file];
         let text = program
             .blocks
-            .get(at.1)
+            .get(at.block)
             .map_or(0..0, |block| block.text.clone());
         ProgramError::at(program.file, text, reason, remedy)
     }
 
     /// A block: its text without number and line end.
-    pub(crate) fn write(&mut self, text: &[u8], at: (usize, usize)) {
-        let program = &self.programs[at.0];
-        let line = program.file.line_of(program.blocks[at.1].lines.start);
+    pub(crate) fn write(&mut self, text: &[u8], at: BlockId) {
+        let program = &self.programs[at.file];
+        let line = program.file.line_of(program.blocks[at.block].lines.start);
         let number = self
             .number
             .map_or(Vec::new(), |number| format!("{number} ").into());
         self.number = self.number.map(|number| number + 1);
-        let slash: &[u8] = match program.blocks[at.1].skipped {
+        let slash: &[u8] = match program.blocks[at.block].skipped {
             true => b"/",
             false => b"",
         };
         self.written
-            .line(&[slash, &number, text].concat(), (at.0, line));
+            .line(&[slash, &number, text].concat(), at.file, line);
     }
 
-    pub(crate) fn may_enter(&self, at: (usize, usize)) -> Result<(), Fault> {
+    pub(crate) fn may_enter(&self, at: BlockId) -> Result<(), Fault> {
         if self.frames.len() >= DEEPEST {
             return Err(self.fault(
                 at,
@@ -108,7 +103,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    pub(crate) fn enter(&mut self, at: (usize, usize), frame: Frame) -> Result<(), Fault> {
+    pub(crate) fn enter(&mut self, at: BlockId, frame: Frame) -> Result<(), Fault> {
         self.may_enter(at)?;
         self.frames.push(frame);
         Ok(())

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::flat_run::{Place, Runs, Written};
+use crate::flat_run::{BlockId, Runs, Written};
 use crate::heidenhain::blocks::{STRAY, STRAY_REMEDY};
 use crate::heidenhain::expand::run::{DEEPEST, Fault, Frame, Next, Run};
 use crate::heidenhain::expand::values::begins_value;
@@ -21,13 +21,13 @@ impl Runs for Run<'_> {
         &mut self.written
     }
 
-    fn at(&self) -> Option<Place> {
+    fn at(&self) -> Option<BlockId> {
         self.at
     }
 
-    fn running(&self) -> Vec<Place> {
-        let mut file = self.at.map_or(0, |at| at.0);
-        let mut running: Vec<Place> = self.at.into_iter().collect();
+    fn running(&self) -> Vec<BlockId> {
+        let mut file = self.at.map_or(0, |at| at.file);
+        let mut running: Vec<BlockId> = self.at.into_iter().collect();
         for frame in self.frames.iter().rev() {
             let block = match frame {
                 Frame::Sub { caller } => *caller,
@@ -41,33 +41,34 @@ impl Runs for Run<'_> {
                     *caller
                 }
             };
-            running.push((file, block));
+            running.push(BlockId { file, block });
         }
         running.reverse();
         running
     }
 
-    fn span_of(&self, at: Place) -> Range<usize> {
-        let block = self.programs[at.0].blocks.get(at.1);
+    fn span_of(&self, at: BlockId) -> Range<usize> {
+        let block = self.programs[at.file].blocks.get(at.block);
         block.map_or(0..0, |block| block.text.clone())
     }
 
-    fn step(&mut self, at: Place) -> Result<(), Fault> {
-        if at.1 >= self.programs[at.0].blocks.len() {
-            return self.file_ends((at.0, at.1.saturating_sub(1)));
+    fn step(&mut self, at: BlockId) -> Result<(), Fault> {
+        if at.block >= self.programs[at.file].blocks.len() {
+            let block = at.block.saturating_sub(1);
+            return self.file_ends(BlockId { block, ..at });
         }
         match self.block(at)? {
-            Next::Block => self.at = Some((at.0, at.1 + 1)),
-            Next::At(file, block) => self.at = Some((file, block)),
+            Next::Block => self.at = Some(at.next()),
+            Next::At(to) => self.at = Some(to),
             Next::End => self.last_block(),
         }
         Ok(())
     }
 
     /// Effect of a refused block on the blocks after it: none, unless it may change the control flow or a parameter.
-    fn behind(&self, at: Place) -> Behind {
-        let program = &self.programs[at.0];
-        let Some(block) = program.blocks.get(at.1) else {
+    fn behind(&self, at: BlockId) -> Behind {
+        let program = &self.programs[at.file];
+        let Some(block) = program.blocks.get(at.block) else {
             return Behind::Nothing;
         };
         if self.frames.len() >= DEEPEST {
@@ -90,9 +91,9 @@ impl Runs for Run<'_> {
         }
     }
 
-    fn pass(&mut self, at: Place, has_written: bool) {
-        let program = &self.programs[at.0];
-        let block = &program.blocks[at.1];
+    fn pass(&mut self, at: BlockId, has_written: bool) {
+        let program = &self.programs[at.file];
+        let block = &program.blocks[at.block];
         let words = block.words(program.file.bytes());
         if let [cycle, define, ..] = words.as_slice()
             && (cycle.is("CYCL") || cycle.is("CYCLE"))
@@ -103,7 +104,7 @@ impl Runs for Run<'_> {
         if !has_written {
             self.write(program.file.part(&block.text), at);
         }
-        self.at = Some((at.0, at.1 + 1));
+        self.at = Some(at.next());
     }
 }
 
@@ -114,16 +115,19 @@ impl Run<'_> {
         let begin = program.begin.unwrap_or(0);
         let before = program.blocks[..begin].last();
         let end = before.map_or(0, |block| block.lines.end);
-        self.written.copy((program.file, 0), &(0..end));
+        self.written.copy(program.file, 0, &(0..end));
         if let (Some(_), Some(number)) = (self.number, &program.blocks[begin].number) {
             let digits = String::from_utf8_lossy(program.file.part(number));
             self.number = Some(digits.parse().unwrap_or(0));
         }
-        self.at = Some((0, begin));
+        self.at = Some(BlockId {
+            file: 0,
+            block: begin,
+        });
     }
 
     /// Handles the end of a file after its last block.
-    fn file_ends(&mut self, last: Place) -> Result<(), Fault> {
+    fn file_ends(&mut self, last: BlockId) -> Result<(), Fault> {
         let (reason, remedy) = match self.frames.last() {
             None => {
                 self.at = None;
@@ -149,13 +153,17 @@ impl Run<'_> {
         };
         let mut blocks = main.begin.unwrap_or(0)..main.blocks.len();
         if let Some(end) = blocks.find(is_end) {
-            self.write(main.file.part(&main.blocks[end].text), (0, end));
+            let at = BlockId {
+                file: 0,
+                block: end,
+            };
+            self.write(main.file.part(&main.blocks[end].text), at);
         }
     }
 
-    fn block(&mut self, at: (usize, usize)) -> Result<Next, Fault> {
-        let program = &self.programs[at.0];
-        let (file, block) = (program.file, &program.blocks[at.1]);
+    fn block(&mut self, at: BlockId) -> Result<Next, Fault> {
+        let program = &self.programs[at.file];
+        let (file, block) = (program.file, &program.blocks[at.block]);
         let words = block.words(file.bytes());
         let Some(first) = words.first() else {
             let text = file.part(&block.text);
@@ -178,7 +186,7 @@ impl Run<'_> {
             return Err(self.fault(at, EXPONENT.0, EXPONENT.1));
         }
         match first.letters.letters() {
-            b"BEGIN" if at.0 == 0 => self.write(file.part(&block.text), at),
+            b"BEGIN" if at.file == 0 => self.write(file.part(&block.text), at),
             b"BEGIN" => {
                 if program.unit_mm() != self.unit_mm {
                     return Err(self.fault(
@@ -202,7 +210,8 @@ impl Run<'_> {
                     && let Frame::Sub { caller } = self.frames[sub]
                 {
                     self.frames.truncate(sub);
-                    return Ok(Next::At(at.0, caller + 1));
+                    let block = caller + 1;
+                    return Ok(Next::At(BlockId { block, ..at }));
                 }
             }
             b"CALL" => return self.call(at, &words),
@@ -220,8 +229,8 @@ impl Run<'_> {
         Ok(Next::Block)
     }
 
-    fn function(&mut self, at: (usize, usize), words: &[Word]) -> Result<Next, Fault> {
-        let bytes = self.programs[at.0].file.bytes();
+    fn function(&mut self, at: BlockId, words: &[Word]) -> Result<Next, Fault> {
+        let bytes = self.programs[at.file].file.bytes();
         match words[0].whole() {
             Some(0..=8 | 13) => self.assign(at, &words[1..])?,
             Some(9..=12) => return self.jump(at, words),
@@ -266,8 +275,8 @@ impl Run<'_> {
                     let key = String::from_utf8_lossy(&bytes[name.clone()]).to_ascii_uppercase();
                     self.parameters.read_from_machine(&key);
                 }
-                let block = &self.programs[at.0].blocks[at.1];
-                self.write(self.programs[at.0].file.part(&block.text), at);
+                let block = &self.programs[at.file].blocks[at.block];
+                self.write(self.programs[at.file].file.part(&block.text), at);
             }
         }
         Ok(Next::Block)

@@ -28,6 +28,14 @@ pub(crate) enum Carried {
     IfLeft,
 }
 
+/// End of a motion: its target, the position of that in the text, and the programmed coordinates that the block states.
+pub(crate) struct MotionEnd {
+    pub target: Target,
+    pub site: TargetSite,
+    pub shape: Shape,
+    pub end: [Option<f64>; 3],
+}
+
 /// The surface normal that a block states.
 fn normal_of(words: &[Word]) -> Option<Vector3<f64>> {
     if !words[0].is("LN") {
@@ -104,16 +112,13 @@ impl Reader<'_> {
         let target = Target::Unknown {
             reason: reason.to_owned(),
         };
-        let site = TargetSite::Fixed("its end is not known");
-        let parts = (Shape::Unknown, [None; 3], true);
-        self.push(
-            block,
-            words,
-            span,
-            MotionKind::Linear,
-            (target, site),
-            parts,
-        );
+        let end = MotionEnd {
+            target,
+            site: TargetSite::Fixed("its end is not known"),
+            shape: Shape::Unknown,
+            end: [None; 3],
+        };
+        self.push(block, words, span, MotionKind::Linear, end, true);
     }
 
     pub(crate) fn push(
@@ -122,9 +127,15 @@ impl Reader<'_> {
         words: &[Word],
         span: &Range<usize>,
         kind: MotionKind,
-        (target, site): (Target, TargetSite),
-        (shape, end, rapid): (Shape, [Option<f64>; 3], bool),
+        end: MotionEnd,
+        rapid: bool,
     ) {
+        let MotionEnd {
+            target,
+            site,
+            shape,
+            end,
+        } = end;
         let speed = match rapid {
             true => Speed {
                 mm_per_s: None,

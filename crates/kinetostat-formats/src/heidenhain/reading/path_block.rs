@@ -85,7 +85,7 @@ impl Reader<'_> {
         }
         let turns = self.turn_axes(words, &parsed, span, acts.machine);
         self.follow_plane();
-        self.moved(block, words, (&parsed, turns), span, &acts);
+        self.moved(block, words, &parsed, turns, span, &acts);
         let functions = parsed.functions.iter().map(|(_, number)| *number);
         for number in functions.filter(|number| matches!(number, 127 | 129)) {
             self.axis_function(number);

@@ -6,12 +6,11 @@ use crate::heidenhain::reading::found::Way;
 use crate::heidenhain::words::Word;
 use crate::heidenhain::writing::centre::{ANGLE_DECIMALS, ToPrint};
 use crate::heidenhain::writing::words::{
-    Part, Stated, parsed, with_blanks, word_text, write_functions,
+    PlacedPiece, Stated, parsed, with_blanks, word_text, write_functions,
 };
 use crate::heidenhain::writing::writer::Writer;
 use crate::model::motion::Motion;
 use crate::text::edits::Edits;
-use crate::writing::piece::Piece;
 
 /// Largest coordinate that the control takes, in its unit.
 const FARTHEST: f64 = 99_999.999;
@@ -30,9 +29,10 @@ impl Writer<'_> {
         motion: &Motion,
         way: &Way,
         words: &[Word],
-        (piece, part): (&Piece, Part),
+        placed: PlacedPiece<'_>,
         place: &mut [Option<f64>; 3],
     ) -> Option<Block> {
+        let PlacedPiece { piece, part, .. } = placed;
         let centre = way.datum.programmed(&piece.centre_mm?);
         let wanted = way.datum.programmed(&piece.position_mm);
         let plane = way.plane;

@@ -5,12 +5,11 @@ use crate::heidenhain::reading::found::Way;
 use crate::heidenhain::words::Word;
 use crate::heidenhain::writing::direction::share_of;
 use crate::heidenhain::writing::words::{
-    Part, Stated, number_text, parsed, with_blanks, word_text, write_functions,
+    Part, PlacedPiece, Stated, number_text, parsed, with_blanks, word_text, write_functions,
 };
 use crate::heidenhain::writing::writer::{SAME_MM, Writer};
 use crate::model::motion::Motion;
 use crate::text::edits::Edits;
-use crate::writing::piece::Piece;
 
 impl Writer<'_> {
     /// The changes of a block that make it a piece; from a place in the programmed axes, which is that of the piece's end then.
@@ -19,9 +18,10 @@ impl Writer<'_> {
         motion: &Motion,
         way: &Way,
         words: &[Word],
-        (piece, part, order): (&Piece, Part, f64),
+        placed: PlacedPiece<'_>,
         place: &mut [Option<f64>; 3],
     ) -> Edits {
+        let PlacedPiece { piece, part, share } = placed;
         let file = &self.program.files[motion.file];
         let mut edits = Edits::default();
         let wanted = way.datum.programmed(&piece.position_mm);
@@ -109,7 +109,7 @@ impl Writer<'_> {
             }
         }
         if part != Part::Only && part != Part::Last {
-            let share = share_of(way, &wanted, order);
+            let share = share_of(way, &wanted, share);
             self.write_normal(motion, way, words, share, &mut edits);
         }
         if !straight {

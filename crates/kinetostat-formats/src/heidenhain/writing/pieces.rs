@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::heidenhain::reading::found::Way;
 use crate::heidenhain::words::{Word, words_of};
 use crate::heidenhain::writing::arc::Block;
-use crate::heidenhain::writing::words::{Part, When, functions_of};
+use crate::heidenhain::writing::words::{Part, PlacedPiece, When, functions_of};
 use crate::heidenhain::writing::writer::{ABOUT_CENTRE, Reason, SAME_MM, Writer};
 use crate::model::motion::Motion;
 use crate::writing::piece::{ABSURD, Piece, is_finite};
@@ -57,9 +57,9 @@ impl Writer<'_> {
                 0 => Part::First,
                 _ => Part::Middle,
             };
-            let order = (index + 1) as f64 / (before.len() + 1) as f64;
-            let Block { before, edits } =
-                self.as_block(motion, way, &words, (piece, part, order), &mut place)?;
+            let share = (index + 1) as f64 / (before.len() + 1) as f64;
+            let placed = PlacedPiece { piece, part, share };
+            let Block { before, edits } = self.as_block(motion, way, &words, placed, &mut place)?;
             inserted.extend(self.line_before(motion, way, before));
             let text = edits.applied_to_part(file.bytes(), &motion.span);
             let text = text.ok_or_else(|| {
@@ -77,8 +77,12 @@ impl Writer<'_> {
             true => Part::Only,
             false => Part::Last,
         };
-        let Block { before, edits } =
-            self.as_block(motion, way, &words, (last, part, 1.0), &mut place)?;
+        let placed = PlacedPiece {
+            piece: last,
+            part,
+            share: 1.0,
+        };
+        let Block { before, edits } = self.as_block(motion, way, &words, placed, &mut place)?;
         inserted.extend(self.line_before(motion, way, before));
         self.end_angles(way);
         let [x, y, z] =
@@ -106,16 +110,16 @@ impl Writer<'_> {
         motion: &Motion,
         way: &Way,
         words: &[Word],
-        (piece, part, order): (&Piece, Part, f64),
+        placed: PlacedPiece<'_>,
         place: &mut [Option<f64>; 3],
     ) -> Result<Block, Reason> {
-        if piece.centre_mm.is_none() {
+        if placed.piece.centre_mm.is_none() {
             return Ok(Block {
                 before: None,
-                edits: self.block(motion, way, words, (piece, part, order), place),
+                edits: self.block(motion, way, words, placed, place),
             });
         }
-        let arc = self.arc_block(motion, way, words, (piece, part), place);
+        let arc = self.arc_block(motion, way, words, placed, place);
         arc.ok_or_else(|| {
             (
                 "its corrected arc has no centre in the range and the digits of the control"

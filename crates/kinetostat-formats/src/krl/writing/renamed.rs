@@ -13,8 +13,11 @@ use crate::model::program::RobotProgram;
 use crate::text::edits::Edits;
 use crate::writing::syntax::Renamed;
 
-/// Statement, and place of the name behind its F, of each FDAT of a file.
-type PointData = BTreeMap<Vec<u8>, (Range<usize>, Range<usize>)>;
+/// Declaration of a FDAT: its statement, and the name in it behind the F.
+struct PointData {
+    statement: Range<usize>,
+    letters: Range<usize>,
+}
 
 /// The text of the fold around each statement, its names of the point's data, and a copy of these data.
 pub(super) fn rename_in_folds(program: &RobotProgram, names: &[Renamed], edits: &mut [Edits]) {
@@ -23,7 +26,7 @@ pub(super) fn rename_in_folds(program: &RobotProgram, names: &[Renamed], edits: 
         .collect();
     let folds: Vec<Vec<Option<usize>>> = files.iter().map(folds_of).collect();
     let changed: BTreeSet<Vec<u8>> = files.iter().flat_map(perhaps_changed).collect();
-    let mut data: Vec<PointData> = files.iter().map(point_data).collect();
+    let mut data: Vec<BTreeMap<Vec<u8>, PointData>> = files.iter().map(point_data).collect();
     let all = data.iter_mut();
     all.for_each(|own| own.retain(|name, _| !changed.contains(name)));
     let (mut copied, mut changed) = (BTreeSet::new(), BTreeSet::new());
@@ -80,15 +83,11 @@ fn line_of(file: &TokenFile<'_>, place: usize) -> Option<usize> {
 }
 
 /// Writes the data of a point once more, for another one.
-fn copy_data(
-    file: &TokenFile<'_>,
-    (statement, letters): &(Range<usize>, Range<usize>),
-    new: &[u8],
-    edits: &mut Edits,
-) {
+fn copy_data(file: &TokenFile<'_>, data: &PointData, new: &[u8], edits: &mut Edits) {
     let source = file.source;
     let mut copy = Edits::default();
-    copy.replace(letters.clone(), new);
+    copy.replace(data.letters.clone(), new);
+    let statement = &data.statement;
     let mut text = copy
         .applied_to_part(source.bytes(), statement)
         .unwrap_or_default();
@@ -98,7 +97,7 @@ fn copy_data(
 }
 
 /// The data of points that a file declares.
-fn point_data(file: &TokenFile<'_>) -> PointData {
+fn point_data(file: &TokenFile<'_>) -> BTreeMap<Vec<u8>, PointData> {
     let mut all = BTreeMap::new();
     for line in &file.lines {
         let is_word = |at: usize, word: &[u8]| file.word(at).eq_ignore_ascii_case(word);
@@ -113,7 +112,11 @@ fn point_data(file: &TokenFile<'_>) -> PointData {
         {
             let place = file.tokens[name].bytes();
             let upper = file.word(name).to_ascii_uppercase();
-            all.insert(upper, (file.span(&line.tokens), place.start + 1..place.end));
+            let data = PointData {
+                statement: file.span(&line.tokens),
+                letters: place.start + 1..place.end,
+            };
+            all.insert(upper, data);
         }
     }
     all

@@ -128,7 +128,7 @@ impl<'a> Stating<'a> {
         }
         if let (Some(straight), Some(pose)) = (step_of(self.program, motion), motion.target.pose())
         {
-            state_step(self.program, motion, (straight, pose), &mut self.edits);
+            state_step(self.program, motion, straight, pose, &mut self.edits);
             self.first.get_or_insert(motion);
             return;
         }

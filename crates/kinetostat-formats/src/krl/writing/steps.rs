@@ -24,7 +24,8 @@ pub(super) fn step_of(program: &RobotProgram, motion: &Motion) -> Option<&'stati
 pub(super) fn state_step(
     program: &RobotProgram,
     motion: &Motion,
-    (straight, pose): (&'static str, &PoseTarget),
+    straight: &'static str,
+    pose: &PoseTarget,
     edits: &mut [Edits],
 ) {
     let place = pose.position_mm.iter().map(|value| format!("{value:.6}"));

@@ -131,7 +131,7 @@ impl Columns {
     /// Makes a column one of the type double, which holds all its numbers.
     pub(crate) fn widen(&mut self, index: usize) -> Result<(), String> {
         let (column, kind) = (&self.columns[index], self.kinds[index]);
-        let cells = (0..self.rows).map(|row| printed((column, kind), row).parse().ok());
+        let cells = (0..self.rows).map(|row| printed(column, kind, row).parse().ok());
         let cells: Vec<Option<f64>> = cells.collect();
         let mut wide = Values {
             values: Vec::with_capacity(cells.len()),

@@ -86,7 +86,7 @@ pub(crate) fn type_of(column: &ColumnDescriptor) -> String {
 }
 
 /// The cell of a row; empty where there is no value, or none that text can say.
-pub(crate) fn printed((column, kind): (&Data, Kind), row: usize) -> String {
+pub(crate) fn printed(column: &Data, kind: Kind, row: usize) -> String {
     fn of<V: ToString>(value: Option<V>) -> String {
         value.map_or_else(String::new, |value| value.to_string())
     }

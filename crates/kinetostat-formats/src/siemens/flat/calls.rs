@@ -60,14 +60,14 @@ impl<'r> Runner<'r> {
 
     /// The subprogram that MCALL calls behind each block with a place, in the program that states it.
     pub(super) fn modal_call(&self) -> Result<Option<Call<'r>>, Fault> {
-        let Some(((unit, line), _)) = self
+        let Some((at, _)) = self
             .modal_call
             .filter(|(_, level)| *level == self.levels.len())
         else {
             return Ok(None);
         };
         let units = self.units;
-        self.call(&units[unit].lines[line].block.items[1..])
+        self.call(&units[at.file].lines[at.block].block.items[1..])
     }
 
     fn not_alone(&self, item: &Item) -> Fault {

@@ -88,8 +88,9 @@ pub(super) fn written_out(
                 made.insert(index, corner);
             }
             Err((why, remedy)) => {
-                let why = (not_followed(&why), remedy);
-                faults.push(ProgramError::of_flat(&flat, files, word.start, why));
+                let why = not_followed(&why);
+                let fault = ProgramError::of_flat(&flat, files, word.start, why, remedy);
+                faults.push(fault);
             }
         }
     }
@@ -98,7 +99,7 @@ pub(super) fn written_out(
         return Err(faults);
     }
     let (edits, added) = edits_of(&flat.file, &found.written, &made);
-    edited(flat, (edits, &added), files, REMEDY)
+    edited(flat, edits, &added, files, REMEDY)
 }
 
 fn corner(

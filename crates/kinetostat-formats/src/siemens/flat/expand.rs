@@ -81,8 +81,10 @@ fn run_within(
                 free.insert(index);
             }
             Entry::Occupied(held) => faults.push(ProgramError::named_alike(
-                (other, begin_of(other)),
-                (&files[*held.get()], begin_of(&files[*held.get()])),
+                other,
+                begin_of(other),
+                &files[*held.get()],
+                begin_of(&files[*held.get()]),
             )),
         }
     }
@@ -103,12 +105,12 @@ fn run_within(
     if !faults.is_empty() && !units.iter().all(|unit| unit.runs) {
         return Err(faults.into());
     }
-    let mut runner = Runner::new(files, &units, names, (main, options));
+    let mut runner = Runner::new(files, &units, names, main, options);
     runner.run(most_steps);
     let mut findings = runner.doubts.into_findings();
     findings.extend(told_of_values(&options.values, file.bytes()));
     let written = runner.written;
-    written.into_flat(file, (faults, findings), |flat| written_out(flat, files))
+    written.into_flat(file, faults, findings, |flat| written_out(flat, files))
 }
 
 /// The first line of a subprogram that says something: PROC, as a rule.

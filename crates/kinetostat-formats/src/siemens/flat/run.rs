@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
-use crate::flat_run::{Place, Runs, Written};
+use crate::flat_run::{BlockId, Runs, Written};
 use crate::model::slash_blocks::SlashBlocks;
 use crate::refused_run::Behind;
 use crate::siemens::block::Item;
 use crate::siemens::declarations::define;
 use crate::siemens::expression::Expression;
 use crate::siemens::flat::print::End;
-use crate::siemens::flat::runner::{Fault, MOST_LEVELS, Runner, Section};
+use crate::siemens::flat::runner::{Fault, Level, MOST_LEVELS, Runner, Section};
 use crate::siemens::flat::statements::{Control, Jump, Way};
 use crate::siemens::values::Value;
 use crate::text::source::SourceFile;
@@ -26,32 +26,31 @@ impl Runs for Runner<'_> {
         &mut self.written
     }
 
-    fn at(&self) -> Option<Place> {
-        self.levels.last().map(|level| (level.unit, level.line))
+    fn at(&self) -> Option<BlockId> {
+        self.levels.last().map(Level::at)
     }
 
-    fn running(&self) -> Vec<Place> {
-        let levels = self.levels.iter();
-        levels.map(|level| (level.unit, level.line)).collect()
+    fn running(&self) -> Vec<BlockId> {
+        self.levels.iter().map(Level::at).collect()
     }
 
-    fn span_of(&self, (unit, line): Place) -> Range<usize> {
-        let line = self.units[unit].lines.get(line);
+    fn span_of(&self, at: BlockId) -> Range<usize> {
+        let line = self.units[at.file].lines.get(at.block);
         line.map_or(0..0, |line| line.block.span.clone())
     }
 
-    fn step(&mut self, (unit, line): Place) -> Result<(), Fault> {
-        match line >= self.units[unit].lines.len() {
+    fn step(&mut self, at: BlockId) -> Result<(), Fault> {
+        match at.block >= self.units[at.file].lines.len() {
             true => self.leave(),
-            false => self.line(unit, line),
+            false => self.line(at),
         }
     }
 
-    fn behind(&self, at: Place) -> Behind {
+    fn behind(&self, at: BlockId) -> Behind {
         if self.levels.len() >= MOST_LEVELS {
             return Behind::Nothing;
         }
-        let Some(line) = self.units[at.0].lines.get(at.1) else {
+        let Some(line) = self.units[at.file].lines.get(at.block) else {
             return Behind::Depends;
         };
         let items = &line.block.items;
@@ -66,21 +65,22 @@ impl Runs for Runner<'_> {
         }
     }
 
-    fn pass(&mut self, (unit, line): Place, has_written: bool) {
-        if let (Some(at), false) = (self.units[unit].lines.get(line), has_written) {
-            self.write_line(self.file().part(&at.block.line));
+    fn pass(&mut self, at: BlockId, has_written: bool) {
+        if let (Some(line), false) = (self.units[at.file].lines.get(at.block), has_written) {
+            self.write_line(self.file().part(&line.block.line));
         }
-        self.arrive(line + 1, false);
+        self.arrive(at.block + 1, false);
     }
 }
 
 impl Runner<'_> {
-    fn line(&mut self, unit: usize, line: usize) -> Result<(), Fault> {
+    fn line(&mut self, place: BlockId) -> Result<(), Fault> {
         let units = self.units;
+        let (unit, line) = (place.file, place.block);
         let at = &units[unit].lines[line];
         if at.block.skip && self.slash_blocks == SlashBlocks::Skipped {
             // The reader does not run it, either.
-            self.pass((unit, line), false);
+            self.pass(place, false);
             return Ok(());
         }
         let mut next = line + 1;

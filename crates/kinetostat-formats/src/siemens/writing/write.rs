@@ -110,10 +110,10 @@ pub(crate) fn write_siemens(
 impl Writer<'_> {
     fn motion(&mut self, pieces: &[&Piece]) -> Result<(), Reason> {
         let written = self.written;
-        if written.code_stated {
+        if written.stated.code {
             self.held.code = None;
         }
-        if written.feed_stated {
+        if written.stated.feed {
             self.held.feed = None;
         }
         let Some(end) = self.motion.target.pose() else {
