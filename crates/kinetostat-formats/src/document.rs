@@ -6,8 +6,7 @@ use crate::error::{ProgramError, WriteError};
 use crate::model::language::Language;
 use crate::model::program::RobotProgram;
 use crate::options::{ReadOptions, WriteOptions};
-use crate::text::flat::FlatText;
-use crate::text::source::SourceFile;
+use crate::text::source::{FlatText, SourceFile};
 use crate::writing::piece::Piece;
 
 /// Reads the files of a program together.

@@ -4,8 +4,7 @@ use std::ops::Range;
 
 use thiserror::Error;
 
-use crate::text::flat::FlatText;
-use crate::text::source::SourceFile;
+use crate::text::source::{FlatText, SourceFile};
 
 /// Refused text of a program: position, text, reason, remedy.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]

@@ -1,8 +1,7 @@
 //! Comments in a flat program with the lines that its blocks are from.
 
 use crate::model::language::Language;
-use crate::text::flat::FlatText;
-use crate::text::source::SourceFile;
+use crate::text::source::{FlatText, SourceFile};
 
 /// Longest line that a comment is added to, bytes.
 const LONGEST: usize = 120;

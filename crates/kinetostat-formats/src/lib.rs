@@ -38,10 +38,9 @@
 //! ```
 
 #[macro_use]
-mod registry;
+mod language;
 
 mod apt;
-mod axis_count;
 mod corner;
 mod document;
 mod error;
@@ -51,11 +50,8 @@ mod file_form;
 mod flat_origins;
 mod flat_run;
 mod heidenhain;
-#[doc(hidden)]
-pub mod internal;
 mod interpreter;
 mod krl;
-mod language;
 mod ls;
 mod making;
 mod model;
@@ -64,7 +60,6 @@ mod path;
 mod poses;
 mod program_language;
 mod rapid;
-mod refused_run;
 mod siemens;
 mod standing;
 mod table;
@@ -89,11 +84,10 @@ pub use krl::table::KRL_STATEMENTS;
 pub use language::{language_of, odd_program};
 pub use ls::reader::read_ls;
 pub use ls::table::LS_STATEMENTS;
-pub use making::action::{Coolant, EventAction};
-pub use making::block_words::{BlockWord, each_block};
 pub use making::compare::Kept;
-pub use making::event_kind::EventKind;
+pub use making::events::EventKind;
 pub use making::events::SourceEvent;
+pub use making::events::{Coolant, EventAction};
 pub use making::fault::{MakeError, MakeFinding};
 pub use making::gcode_events::events_of_gcode;
 pub use making::joint_table::{JointStart, JointTable, JointTableError, joint_table};
@@ -101,29 +95,30 @@ pub use making::limits::MakeLanguage;
 pub use making::make::{Made, make};
 pub use making::of_robot::{base_of_robot, make_of_flat_robot, make_of_robot};
 pub use making::robot_events::{events_of_robot, spindle_of_blocks};
+pub use making::run_statements::{BlockWord, each_block};
 pub use making::run_statements::{RunStatement, mode_of, options_of_motion, statements_of_run};
 pub use making::template::{
     PlacesUnknown, Rapids, SpindleStatements, StatedFrame, StatedTool, Template, Zones,
 };
 pub use model::frame::{Frame, FrameUse};
-pub use model::joint_arm::{BetweenRows, JointArm, TableArm};
 pub use model::language::Language;
 pub use model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 pub use model::orientation::OrientationText;
 pub use model::program::RobotProgram;
-pub use model::slash_blocks::SlashBlocks;
-pub use model::stated_arm::StatedArm;
+pub use model::site::{BetweenRows, JointArm, TableArm};
+pub use model::stated_value::SlashBlocks;
 pub use model::stated_value::StatedValue;
+pub use model::target::StatedArm;
 pub use model::target::{Configuration, PoseTarget, Target};
 pub use options::{
     CutterCompensation, ExternalAxes, LengthUnit, ReadOptions, UnknownTargets, WriteOptions,
 };
-pub use path::all_faults::{ProgramFault, all_faults};
 pub use path::axis_turns::TurnAboutAxis;
 pub use path::correctable::Correctable;
 pub use path::fault::PathError;
+pub use path::maker::PathOptions;
+pub use path::motion_faults::{ProgramFault, all_faults};
 pub use path::of_program::{RobotPath, path_of};
-pub use path::options::PathOptions;
 pub use path::tools::tool_number;
 #[cfg(feature = "parquet")]
 pub use poses::parquet::text::{ParquetFile, parquet_of_table, table_of_parquet};
@@ -135,10 +130,19 @@ pub use siemens::flat::expand_siemens;
 pub use siemens::reader::read_siemens;
 pub use siemens::table::SIEMENS_STATEMENTS;
 pub use table::{StatementRow, Treatment};
-pub use text::finding::Finding;
-pub use text::flat::FlatText;
+pub use text::source::Finding;
+pub use text::source::FlatText;
 pub use text::source::SourceFile;
-pub use urscript::table::URSCRIPT_STATEMENTS;
+pub use urscript::motion::URSCRIPT_STATEMENTS;
+pub use val3::instructions::VAL3_STATEMENTS;
 pub use val3::reader::read_val3;
-pub use val3::table::VAL3_STATEMENTS;
 pub use writing::piece::Piece;
+
+/// For the tests of this crate alone: what all languages share and no public function shows by itself.
+#[doc(hidden)]
+pub mod internal {
+    pub use crate::heidenhain::expand::flat::expand_within as expand_heidenhain_within;
+    pub use crate::model::orientation::OrientationText;
+    pub use crate::siemens::flat::expand_within as expand_siemens_within;
+    pub use crate::text::number::{Width, printed};
+}

@@ -3,10 +3,9 @@
 use kinetostat_program::last_digit_mm;
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::apt::arc::Circle;
-use crate::apt::file_reader::{HOLES, LEAVE, POINTS, Reader};
+use crate::apt::file_reader::{HOLES, LEAVE, POINTS, Reader, frame_use, pose_text, work_object};
 use crate::apt::lines::Statement;
-use crate::apt::places::{frame_use, pose_text, work_object};
+use crate::apt::state::Circle;
 use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::orientation::OrientationText;
 use crate::model::site::{MotionSite, TargetSite};

@@ -3,9 +3,8 @@
 use kinetostat_program::last_digit_mm;
 use nalgebra::Vector2;
 
-use crate::heidenhain::arcs::{AGAIN, Arc, Turned, about, by_radius, polar, tangential};
+use crate::heidenhain::arcs::{AGAIN, Arc, Plane, Turned, about, by_radius, polar, tangential};
 use crate::heidenhain::path_words::{Coordinate, PathWords};
-use crate::heidenhain::plane::Plane;
 use crate::heidenhain::state::{Pole, State};
 use crate::heidenhain::words::Word;
 

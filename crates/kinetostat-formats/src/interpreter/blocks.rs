@@ -5,11 +5,11 @@ use std::ops::Range;
 
 use crate::error::{ProgramError, note};
 use crate::interpreter::assigned::{Assigned, refuse_other_capitals, with_data};
+use crate::interpreter::lexing::Words;
 use crate::interpreter::token::{Kind, TokenFile};
 use crate::interpreter::tree::{
     Change, Choice, DatumNode, LoopKind, Module, Parameter, Routine, RoutineKind, Sight, Statement,
 };
-use crate::interpreter::words::Words;
 use crate::text::name::Name;
 
 /// Deepest nesting of blocks.

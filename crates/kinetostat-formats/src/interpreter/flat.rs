@@ -16,11 +16,8 @@ use crate::interpreter::tree::RoutineKind;
 use crate::interpreter::value::Datum;
 use crate::model::program::RanStatement;
 use crate::model::site::TargetSite;
-use crate::text::edits::Edits;
-use crate::text::finding::Finding;
-use crate::text::flat::FlatText;
 use crate::text::name::Name;
-use crate::text::source::SourceFile;
+use crate::text::source::{Edits, Finding, FlatText, SourceFile};
 
 impl<D: Dialect> Run<'_, '_, D> {
     /// A motion that ran.

@@ -1,8 +1,11 @@
-//! Tokens of a language in which a statement is a line, with their places; blanks and comments have no token.
+//! Tokens of a language in which a statement is a line, with their places; blanks and comments have no token; words that begin and end blocks.
 //!
 //! A line that ends outside brackets is a token: it ends the statement.
 
-use crate::interpreter::token::{Kind, Token};
+use std::ops::Range;
+
+use crate::interpreter::token::{Kind, Token, TokenFile};
+use crate::interpreter::tree::{Leave, RoutineKind};
 use crate::text::source::beginning;
 
 /// Marks of a language.
@@ -90,5 +93,42 @@ pub(crate) fn number(text: &[u8]) -> usize {
     match (text.get(mantissa), text.get(mantissa + 1 + sign)) {
         (Some(b'e' | b'E'), Some(b'0'..=b'9')) => mantissa + 1 + sign + digits(mantissa + 1 + sign),
         _ => mantissa,
+    }
+}
+
+/// The words of a language.
+pub(crate) struct Words {
+    pub marks: Marks,
+    /// Word before a routine, and its kind if it is not nested and has no parameters.
+    pub routines: &'static [(&'static str, RoutineKind)],
+    /// Words before the first condition of a branch, a further one, and the alternative.
+    pub branch: [&'static str; 3],
+    /// Word before a loop with its condition.
+    pub repeat: &'static str,
+    /// Word after each block.
+    pub end: &'static str,
+    /// Byte after a header.
+    pub colon: u8,
+    /// Words before a global name, and before one of its routine.
+    pub scopes: [&'static str; 2],
+    /// Words of return, loop exit, next pass, and program end.
+    pub leaves: [&'static str; 4],
+    /// Words before a statement that is neither a call nor an assignment.
+    pub plain: &'static [&'static str],
+    /// A statement that does nothing.
+    pub nothing: &'static str,
+}
+
+impl Words {
+    /// Effect of a statement that leaves its block.
+    pub(crate) fn leave(&self, file: &TokenFile<'_>, tokens: &Range<usize>) -> Leave {
+        let word = file.word(tokens.start);
+        let value = tokens.start + 1..tokens.end;
+        match self.leaves.iter().position(|own| word == own.as_bytes()) {
+            Some(1) => Leave::Breaks,
+            Some(2) => Leave::Continues,
+            Some(3) => Leave::Ends,
+            _ => Leave::Returns((!value.is_empty()).then_some(value)),
+        }
     }
 }

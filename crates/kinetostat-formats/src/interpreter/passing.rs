@@ -4,11 +4,10 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::interpreter::expression::{Argument, Expression, Node};
-use crate::interpreter::flow::Leave;
 use crate::interpreter::run::{Dialect, Place, Root, Run, Slot};
 use crate::interpreter::symbols::{Meaning, Scope};
 use crate::interpreter::token::TokenFile;
-use crate::interpreter::tree::{LoopKind, Statement};
+use crate::interpreter::tree::{Leave, LoopKind, Statement};
 use crate::interpreter::value::Datum;
 use crate::text::name::Name;
 

@@ -11,8 +11,8 @@ use crate::interpreter::storage::behind;
 use crate::interpreter::token::Kind;
 use crate::interpreter::tree::RoutineKind;
 use crate::interpreter::value::{Datum, Step, Value};
-use crate::model::findings::unreached_motions;
 use crate::model::motion::{Runs, mark_repeated};
+use crate::model::parsed::unreached_motions;
 use crate::model::site::TargetSite;
 use crate::text::name::Name;
 

@@ -5,8 +5,7 @@ use nalgebra::Isometry3;
 use crate::interpreter::expression::{Expression, Node, Operator};
 use crate::interpreter::value::{Datum, Step, Value};
 use crate::krl::position::position_of;
-use crate::krl::role::Role;
-use crate::krl::state::{Run, key};
+use crate::krl::state::{Role, Run, key};
 use crate::model::frame::{Frame, FrameUse};
 use crate::text::name::Name;
 

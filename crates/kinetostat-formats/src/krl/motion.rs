@@ -4,17 +4,12 @@ use std::ops::Range;
 
 use crate::interpreter::run::Reason;
 use crate::interpreter::token::TokenFile;
-use crate::krl::behind_ends::{Rest, Rounding, rest_of};
-use crate::krl::ends::{End, ends_of};
+use crate::krl::behind_ends::{Rest, Rounding, SpeedPlace, rest_of};
+use crate::krl::ends::{End, WRITE_END, ends_of, step_of};
 use crate::krl::expression::expression_of;
-use crate::krl::kept::{completed, is_beyond, kept_angles};
-use crate::krl::position::position_of;
-use crate::krl::role::Role;
-use crate::krl::speed_place::SpeedPlace;
-use crate::krl::state::Run;
-use crate::krl::steps::{WRITE_END, step_of};
+use crate::krl::position::{completed, is_beyond, kept_angles, position_of};
+use crate::krl::state::{KEPT, Role, Run, turned};
 use crate::krl::table::{Ends, MotionRow};
-use crate::krl::turning::{KEPT, turned};
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::site::{MotionSite, SpeedSite, TargetSite};
@@ -110,7 +105,7 @@ impl Run<'_, '_> {
             false => self.speed(tokens, &end_tokens, rest),
         };
         self.own.beyond.truncate(self.motions.len());
-        let ends_beyond = end.b.map_or(is_beyond, crate::krl::kept::is_beyond);
+        let ends_beyond = end.b.map_or(is_beyond, crate::krl::position::is_beyond);
         self.own.beyond.push(match end.site {
             TargetSite::Offset { .. } | TargetSite::Replaced(_) | TargetSite::Joints(_) => false,
             _ => ends_beyond,

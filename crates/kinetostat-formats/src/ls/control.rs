@@ -3,11 +3,10 @@
 use crate::interpreter::expression::Expression;
 use crate::interpreter::operation::same;
 use crate::interpreter::value::{Datum, Value};
-use crate::ls::flat_lines::FlatLines;
 use crate::ls::motion::MotionText;
 use crate::ls::passing::Open;
 use crate::ls::program::label_of;
-use crate::ls::run::{Flow, Pass, Run, RunningCall, index_of_axes};
+use crate::ls::run::{FlatLines, Flow, Pass, Run, RunningCall, index_of_axes};
 use crate::ls::step::{CallText, CaseText, ForText, Step};
 use crate::model::motion::{Motion, Runs};
 

@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use crate::interpreter::expression::{Expression, Node, Operator};
-use crate::ls::words::{Kind, Word, words_of};
+use crate::ls::lines::{Kind, Word, words_of};
 use crate::text::name::Name;
 
 /// Deepest nesting of brackets and signs.

@@ -9,7 +9,7 @@ use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::RobotProgram;
 use crate::model::target::Target;
 use crate::path::of_program::RobotPath;
-use crate::text::line_words::in_words;
+use crate::text::number::in_words;
 
 /// True if a program is made in the language of its source and that language's targets state configurations.
 pub(crate) fn is_same(source: Language, made: MakeLanguage) -> bool {

@@ -2,10 +2,9 @@
 
 use kinetostat_program::Path;
 
-use crate::making::event_kind::EventKind;
-use crate::making::events::SourceEvent;
+use crate::making::events::{EventKind, SourceEvent};
 use crate::making::fault::MakeFinding;
-use crate::making::numbers::plain;
+use crate::making::names::plain;
 use crate::making::step::StatedConfiguration;
 use crate::model::language::Language;
 

@@ -9,11 +9,8 @@ use crate::heidenhain::blocks::{Block, blocks_of};
 use crate::heidenhain::path_words::has_words;
 use crate::heidenhain::table::{Function, function};
 use crate::heidenhain::words::{Value, Word as Written};
-use crate::making::action::{Coolant, EventAction};
-use crate::making::event_kind::EventKind;
-use crate::making::events::SourceEvent;
-use crate::making::turning::Turning;
-use crate::making::words::{InForce, Said, Word, Words, kind_of_m, word_of_m};
+use crate::making::events::{Coolant, EventAction, EventKind, SourceEvent};
+use crate::making::words::{InForce, Said, Turning, Word, Words, kind_of_m, word_of_m};
 use crate::text::source::SourceFile;
 
 /// The events of a file, and where its spindle begins to turn otherwise.

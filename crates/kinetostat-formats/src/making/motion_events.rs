@@ -4,9 +4,8 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::ls::motion::event_of;
-use crate::ls::names::{named_end, position_names};
-use crate::making::event_kind::EventKind;
-use crate::making::events::SourceEvent;
+use crate::ls::positions::{named_end, position_names};
+use crate::making::events::{EventKind, SourceEvent};
 use crate::making::statements::of_line;
 use crate::model::language::Language;
 use crate::model::motion::Motion;

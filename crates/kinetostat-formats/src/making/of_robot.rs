@@ -1,12 +1,13 @@
 //! A program of one robot written for another.
 
-use crate::making::dynamics::{dynamics, other_speeds, turning_speeds};
+use crate::making::dynamics::{
+    arcs_from_elsewhere, dynamics, not_once, other_speeds, turning_speeds,
+};
 use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
 use crate::making::make::{Made, make_along};
 use crate::making::of_tools::{faults_at, stated, tools_of_source};
 use crate::making::robot_course::course_of;
-use crate::making::robot_faults::{arcs_from_elsewhere, not_once};
 use crate::making::stated::{is_identity, of_frame};
 use crate::making::template::{StatedFrame, StatedTool, Template};
 use crate::making::{configurations, reconfigured};
@@ -19,7 +20,7 @@ use crate::model::site::TargetSite;
 use crate::path::axis_turns::at_z;
 use crate::path::of_program::RobotPath;
 use crate::path::tools::same_frame;
-use crate::rapid::loads::object_frames;
+use crate::rapid::literals::object_frames;
 use crate::text::name::Name;
 
 /// A robot's program in another language, with its work object and its tools where the template states none.

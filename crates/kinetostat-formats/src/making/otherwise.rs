@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use kinetostat_program::Path;
 
-use crate::making::event_kind::EventKind;
+use crate::making::events::EventKind;
 use crate::making::fault::MakeFinding;
 use crate::making::limits::MakeLanguage;
 use crate::making::pieces::Followed;

@@ -10,7 +10,7 @@ use crate::model::motion::MotionKind;
 use crate::model::program::RobotProgram;
 use crate::model::target::{Configuration, Target};
 use crate::path::of_program::RobotPath;
-use crate::text::line_words::in_words;
+use crate::text::number::in_words;
 
 /// Numbers of the moves of a path that do so: what they state is not what was stated last, or nothing was.
 pub(crate) fn changes(program: &RobotProgram, robot: &RobotPath) -> BTreeSet<usize> {

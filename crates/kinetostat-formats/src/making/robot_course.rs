@@ -3,8 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use crate::making::course::{Course, at, counted_on_lines, place_of};
-use crate::making::event_kind::EventKind;
-use crate::making::events::SourceEvent;
+use crate::making::events::{EventKind, SourceEvent};
 use crate::making::of_tools::changes_of_source;
 use crate::making::robot_events::events_of_robot;
 use crate::making::routines::{Part, running_lines};

@@ -9,7 +9,7 @@ use crate::making::robot_events::instructions;
 use crate::making::statements::statements;
 use crate::model::language::Language;
 use crate::model::program::RobotProgram;
-use crate::model::slash_blocks::SlashBlocks;
+use crate::model::stated_value::SlashBlocks;
 use crate::siemens::block::{Block, What};
 use crate::siemens::values::{Variables, whole};
 use crate::text::source::SourceFile;

@@ -1,6 +1,6 @@
-//! Tools and work objects: what a motion uses, as far as the text or the caller says what it is.
+//! Tools and work objects: what a motion uses, as far as the text or the caller says what it is, and the payload of a tool.
 
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 /// Pose of a tool or a work object.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,4 +51,16 @@ impl FrameUse {
             Frame::Unknown { .. } => None,
         }
     }
+}
+
+/// The load of a tool: `loaddata` of RAPID, `LOAD` of KRL.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ToolLoad {
+    pub mass_kg: f64,
+    /// Centre of mass in axes of the flange, mm.
+    pub centre_of_mass_mm: Vector3<f64>,
+    /// Turns the axes of the flange into those of the moments of inertia.
+    pub axes_of_moment: UnitQuaternion<f64>,
+    /// Moments of inertia about those axes through the centre of mass, kg m^2.
+    pub inertia_kg_m2: Vector3<f64>,
 }

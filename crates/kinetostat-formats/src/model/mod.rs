@@ -4,9 +4,7 @@
 //! says so, poses in the axes of the work object as written.
 
 pub(crate) mod external;
-pub(crate) mod findings;
 pub(crate) mod frame;
-pub(crate) mod joint_arm;
 pub(crate) mod language;
 pub(crate) mod motion;
 pub(crate) mod orientation;
@@ -14,9 +12,5 @@ pub(crate) mod outside_call;
 pub(crate) mod parsed;
 pub(crate) mod program;
 pub(crate) mod site;
-pub(crate) mod slash_blocks;
-pub(crate) mod stated_arm;
-pub(crate) mod stated_axes;
 pub(crate) mod stated_value;
 pub(crate) mod target;
-pub(crate) mod tool_load;

@@ -5,9 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::error::ProgramError;
 use crate::model::language::Language;
-use crate::text::finding::Finding;
-use crate::text::line_words::in_words;
-use crate::text::source::SourceFile;
+use crate::text::number::in_words;
+use crate::text::source::{Finding, SourceFile};
 
 /// A call of what is in none of the files.
 #[derive(Debug, Clone, PartialEq, Eq)]

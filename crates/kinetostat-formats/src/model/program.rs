@@ -1,4 +1,4 @@
-//! A program of any language.
+//! A program of any language, and the rotary axis positions that it states.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -7,10 +7,8 @@ use crate::model::language::Language;
 use crate::model::motion::Motion;
 use crate::model::outside_call::{OutsideCall, by_name};
 use crate::model::site::Declaration;
-use crate::model::stated_axes::StatedAxes;
 use crate::model::stated_value::StatedValue;
-use crate::text::finding::Finding;
-use crate::text::source::SourceFile;
+use crate::text::source::{Finding, SourceFile};
 
 /// Text of a loop that nothing leaves, among the statements that ran.
 pub(crate) const ENDLESS: &str = "A LOOP WITHOUT END";
@@ -54,7 +52,7 @@ pub struct RobotProgram {
     /// What it says of the rotary axes of a machine.
     pub(crate) rotary: StatedAxes,
     /// Setting with which blocks with a slash were read.
-    pub(crate) slash_blocks: crate::model::slash_blocks::SlashBlocks,
+    pub(crate) slash_blocks: crate::model::stated_value::SlashBlocks,
 }
 
 impl RobotProgram {
@@ -111,5 +109,35 @@ impl RobotProgram {
                 source.line_of(span.start)..=source.line_of(last)
             })
             .collect()
+    }
+}
+
+/// Statement of the rotary axis positions at a motion.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum AxesStated {
+    /// Angles by their words up to this block: positions at the start and the end, deg, in the order of the letters. Coordinates are those of the
+    /// tool tip in the part.
+    Angles { start: Vec<f64>, end: Vec<f64> },
+    /// The angles are unknown, or positions are not those of the tool tip.
+    Open,
+}
+
+/// Rotary axis data of a program.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct StatedAxes {
+    /// Letters of the axes whose words are followed.
+    pub letters: Vec<char>,
+    /// Motions of programs whose words of rotary axes are followed; a motion that is not here states a direction of the tool, or
+    /// takes over the one of before.
+    pub motions: BTreeMap<usize, AxesStated>,
+    /// The motions in which the axes turn evenly, where others lead the tool's axis on a great circle.
+    pub even: BTreeSet<usize>,
+}
+
+impl StatedAxes {
+    /// True if angles define the tool orientation anywhere.
+    pub(crate) fn has_angles(&self) -> bool {
+        let mut all = self.motions.iter();
+        all.any(|(_, stated)| matches!(stated, AxesStated::Angles { .. }))
     }
 }

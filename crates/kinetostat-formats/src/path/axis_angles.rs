@@ -10,8 +10,7 @@ use kinetostat_program::{GreatCircle, OffCircle, RotaryAxes, StatedBy, Unreached
 use nalgebra::Vector3;
 
 use crate::model::motion::Motion;
-use crate::model::program::RobotProgram;
-use crate::model::stated_axes::AxesStated;
+use crate::model::program::{AxesStated, RobotProgram};
 use crate::path::axis_turns::{OVER, axis_of};
 use crate::path::fault::PathError;
 

@@ -6,8 +6,7 @@ use std::collections::BTreeMap;
 use kinetostat_program::{Corrected, WriteError};
 
 use crate::interpreter::token::TokenFile;
-use crate::krl::folds::folds_of;
-use crate::krl::lex::token_file;
+use crate::krl::lex::{folds_of, token_file};
 use crate::model::language::Language;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;

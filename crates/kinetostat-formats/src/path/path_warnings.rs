@@ -11,7 +11,7 @@ use crate::model::program::RobotProgram;
 use crate::model::site::TargetSite;
 use crate::path::axis_angles::on_great_circle;
 use crate::path::axis_turns::{ALONG_Z, TurnAboutAxis, axis_of};
-use crate::path::options::PathOptions;
+use crate::path::maker::PathOptions;
 
 /// Number of positions that suffice to judge whether a program is small, ...
 const SEVERAL: usize = 8;

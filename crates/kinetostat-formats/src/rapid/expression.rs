@@ -1,10 +1,11 @@
-//! Expressions of RAPID.
+//! Expressions of RAPID, and the arguments of an instruction.
 
 use std::ops::Range;
 
 use crate::interpreter::expression::{Argument, Expression, Operator};
 use crate::interpreter::reading::{self, Grammar};
 use crate::interpreter::token::TokenFile;
+use crate::text::name::Name;
 
 /// Source: ABB, Technical reference manual - RAPID kernel, Priority between operators.
 pub(super) const GRAMMAR: Grammar = Grammar {
@@ -45,4 +46,36 @@ pub(crate) fn expression_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Expre
 /// The arguments of a call between two tokens.
 pub(crate) fn arguments_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Vec<Argument> {
     reading::arguments_of(&GRAMMAR, file, tokens)
+}
+
+/// The arguments of one instruction.
+pub(crate) struct Arguments {
+    /// Arguments without a backslash.
+    pub ordered: Vec<Expression>,
+    /// Optional arguments, with a backslash.
+    pub options: Vec<(Name, Option<Expression>)>,
+}
+
+impl Arguments {
+    /// Arguments in the tokens after an instruction's name.
+    pub(crate) fn of(file: &TokenFile<'_>, tokens: Range<usize>) -> Self {
+        let mut all = Self {
+            ordered: Vec::with_capacity(6),
+            options: Vec::new(),
+        };
+        for Argument { option, value } in arguments_of(file, tokens) {
+            match (option, value) {
+                (Some(name), value) => all.options.push((name, value)),
+                (None, Some(value)) => all.ordered.push(value),
+                (None, None) => {}
+            }
+        }
+        all
+    }
+
+    /// An option by its name in capitals; what it is given, if anything.
+    pub(crate) fn option(&self, capitals: &str) -> Option<Option<&Expression>> {
+        let found = self.options.iter().find(|(name, _)| name.is(capitals));
+        found.map(|(_, value)| value.as_ref())
+    }
 }

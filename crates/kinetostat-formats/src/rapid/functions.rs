@@ -8,7 +8,7 @@ use std::ops::Range;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::interpreter::expression::{Argument, Node};
-use crate::interpreter::functions::function;
+use crate::interpreter::operation::function;
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::value::{Datum, Step, Value};
 use crate::model::frame::FrameUse;

@@ -13,7 +13,7 @@ use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::site::{MotionSite, SpeedSite, TargetSite};
 use crate::model::target::Target;
 use crate::options::UnknownTargets;
-use crate::rapid::arguments::Arguments;
+use crate::rapid::expression::Arguments;
 use crate::rapid::literals::{frame_of, joints_of};
 use crate::rapid::state::Run;
 use crate::rapid::table::{Ends, MotionRow};

@@ -12,9 +12,8 @@ use crate::options::{ExternalAxes, ReadOptions};
 use crate::rapid::lex::tokens_of;
 use crate::rapid::parser::modules::modules_of;
 use crate::rapid::state::Rapid;
-use crate::text::flat::FlatText;
 use crate::text::name::Name;
-use crate::text::source::SourceFile;
+use crate::text::source::{FlatText, SourceFile};
 
 /// Limit of the bytes of a file; the memory needed is some twenty times as much.
 const MOST_BYTES: usize = 1 << 26;

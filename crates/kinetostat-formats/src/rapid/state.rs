@@ -19,7 +19,7 @@ use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::site::TurnsOtherwise;
 use crate::options::ReadOptions;
-use crate::rapid::arguments::Arguments;
+use crate::rapid::expression::Arguments;
 use crate::text::name::Name;
 
 /// A run of a RAPID program.

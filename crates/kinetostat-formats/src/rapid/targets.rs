@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::interpreter::declared::Around;
+use crate::interpreter::ends::Around;
 use crate::interpreter::expression::{Argument, Expression, Node};
 use crate::interpreter::run::Reason;
 use crate::interpreter::value::Datum;

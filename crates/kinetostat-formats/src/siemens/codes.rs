@@ -3,12 +3,11 @@
 use crate::options::CutterCompensation;
 use crate::siemens::block::{Item, What};
 use crate::siemens::expression::Expression;
-use crate::siemens::frames::Change;
 use crate::siemens::state::{Angles, Code, FeedMode};
 use crate::siemens::table::row;
 use crate::siemens::values::whole;
 use crate::siemens::walker::Reader;
-use crate::siemens::words::{Purpose, Words};
+use crate::siemens::words::{Change, Purpose, Words};
 use crate::table::Treatment;
 
 /// Words that are understood and have no value.

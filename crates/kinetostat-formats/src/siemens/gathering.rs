@@ -3,11 +3,11 @@
 use std::ops::Range;
 
 use crate::corner::Cut;
-use crate::siemens::axes_beside::OTHER_AXES;
 use crate::siemens::block::{Block, How, Item, What};
 use crate::siemens::expression::Expression;
 use crate::siemens::state::Feed;
 use crate::siemens::table::row;
+use crate::siemens::turned_axes::OTHER_AXES;
 use crate::siemens::values::{Value, whole};
 use crate::siemens::walker::{Corners, Reader};
 use crate::siemens::words::{Group, Purpose, Words, coordinate, coordinate_of};

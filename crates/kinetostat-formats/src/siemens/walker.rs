@@ -5,20 +5,19 @@ use std::ops::Range;
 
 use nalgebra::{Isometry3, Vector3};
 
-use crate::axis_count::CountShown;
 use crate::corner::Cut;
 use crate::error::{ProgramError, note};
 use crate::model::motion::Motion;
 use crate::model::outside_call::OutsideCall;
-use crate::model::stated_axes::StatedAxes;
+use crate::model::program::StatedAxes;
 use crate::options::ReadOptions;
 use crate::siemens::block::How;
 use crate::siemens::expression::Expression;
 use crate::siemens::state::{Angles, Code, Coordinate, Feed, NO_SHIFT_MM, State, StatedModes};
 use crate::siemens::tokens::Broken;
 use crate::siemens::values::Variables;
-use crate::text::finding::Finding;
-use crate::text::source::SourceFile;
+use crate::text::source::{Finding, SourceFile};
+use crate::turned_axis::CountShown;
 
 /// Result of the scan of a program's files.
 #[derive(Debug, Default)]

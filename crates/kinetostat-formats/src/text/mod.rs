@@ -2,10 +2,6 @@
 //!
 //! It knows no language. Files are bytes, not UTF-8: controllers write Latin-1 and worse.
 
-pub(crate) mod edits;
-pub(crate) mod finding;
-pub(crate) mod flat;
-pub(crate) mod line_words;
 pub(crate) mod name;
 pub(crate) mod number;
 pub(crate) mod source;

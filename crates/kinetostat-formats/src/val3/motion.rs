@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 
-use crate::interpreter::declared::Around;
+use crate::interpreter::ends::Around;
 use crate::interpreter::expression::{Argument, Expression, Node};
 use crate::interpreter::run::{Dialect, Reason};
 use crate::interpreter::value::{Datum, Value};
@@ -16,8 +16,7 @@ use crate::model::site::{MotionSite, PoseText, ReplacedText, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::UnknownTargets;
 use crate::text::number::{NumberText, Width};
-use crate::val3::frames::{own_trsf, single};
-use crate::val3::state::{Run, Val3};
+use crate::val3::frames::{Run, Val3, own_trsf, single};
 
 /// A further point like an element of an array.
 const AROUND: Around = Around {

@@ -11,12 +11,10 @@ use crate::model::language::Language;
 use crate::model::parsed::{Parsed, Read};
 use crate::model::program::RobotProgram;
 use crate::options::ReadOptions;
-use crate::text::finding::Finding;
-use crate::text::flat::FlatText;
 use crate::text::name::Name;
-use crate::text::source::SourceFile;
+use crate::text::source::{Finding, FlatText, SourceFile};
+use crate::val3::frames::Val3;
 use crate::val3::parser::routine_of;
-use crate::val3::state::Val3;
 use crate::val3::xml::content_of;
 
 const MOST_BYTES: usize = 1 << 26;

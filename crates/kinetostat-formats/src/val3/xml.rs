@@ -12,8 +12,7 @@ use crate::interpreter::token::{Kind, Token, TokenFile};
 use crate::interpreter::tree::{Change, DatumNode, Parameter, Sight};
 use crate::text::name::Name;
 use crate::text::source::SourceFile;
-use crate::val3::expression::has_values;
-use crate::val3::lex::add_tokens;
+use crate::val3::expression::{add_tokens, has_values};
 
 /// A program before its statements are read.
 pub(super) struct Draft {

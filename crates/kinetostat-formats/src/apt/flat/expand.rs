@@ -5,18 +5,14 @@ use std::ops::Range;
 use kinetostat_program::Spindle;
 use nalgebra::Vector3;
 
-use crate::apt::dialect::Dialect;
-use crate::apt::flat::cycle::{Cycle, Said, Wrong, said};
-use crate::apt::flat::hole::{Hole, Part};
-use crate::apt::lines::{Statement, statements_of};
-use crate::apt::numbers::{all_numbers, arguments_of};
-use crate::apt::spindle::spindle_of;
-use crate::apt::state::unit_of;
+use crate::apt::flat::cycle::{Cycle, Hole, Part, Said, Wrong, said};
+use crate::apt::lines::{Statement, all_numbers, arguments_of, statements_of};
+use crate::apt::state::{spindle_of, unit_of};
+use crate::apt::table::Dialect;
 use crate::error::ProgramError;
 use crate::flat_run::Written;
-use crate::text::flat::FlatText;
 use crate::text::number::short;
-use crate::text::source::SourceFile;
+use crate::text::source::{FlatText, SourceFile};
 
 /// Writes the holes of an APT file (`CYCLE` and the GOTO behind it) as plain motions: by rapid over the hole and down to `RAPTO` or `CLEAR`,
 /// at the cycle's feed to its depth along the tool's axis, and out again; between holes at `CLEAR`, `RTRCTO` or higher. DRILL, FACE and

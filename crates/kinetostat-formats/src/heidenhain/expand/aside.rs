@@ -7,23 +7,19 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use crate::error::ProgramError;
+use crate::flat_run::edited;
+use crate::heidenhain::blocks::{is_numbered, numbered_again};
 use crate::heidenhain::datum::Bend;
-use crate::heidenhain::digits::decimals;
 use crate::heidenhain::expand::centre_line::{AGAIN, Piece, Why, centre_line};
-use crate::heidenhain::numbering::{is_numbered, numbered_again};
 use crate::heidenhain::path_words::FeedWord;
-use crate::heidenhain::reading::found::{Found, Way};
 use crate::heidenhain::reading::reader::interpret;
-use crate::heidenhain::words::Word;
+use crate::heidenhain::reading::walker::{Found, Way};
+use crate::heidenhain::words::{Word, decimals};
 use crate::heidenhain::writing::words::{
     Part, Stated, stands, with_blanks, word_text, write_functions,
 };
 use crate::options::{CutterCompensation, ReadOptions};
-use crate::refused_run::edited;
-use crate::text::edits::Edits;
-use crate::text::finding::Finding;
-use crate::text::flat::FlatText;
-use crate::text::source::SourceFile;
+use crate::text::source::{Edits, Finding, FlatText, SourceFile};
 
 /// Arcs shorter than this become lines, mm: their digits would say a whole turn or none.
 const LEAST_ARC_MM: f64 = 0.002;

@@ -9,9 +9,9 @@ use std::fmt::Write as _;
 use kinetostat_program::{Curve, Dialect, ExpandOptions, NoSubprograms, expand};
 use nalgebra::{Rotation2, Vector2, Vector3};
 
-use crate::heidenhain::aside::Aside;
-use crate::heidenhain::plane::Plane;
-use crate::heidenhain::reading::found::Way;
+use crate::heidenhain::arcs::Plane;
+use crate::heidenhain::reading::walker::Way;
+use crate::heidenhain::state::Aside;
 use crate::model::motion::{Motion, MotionKind};
 
 /// A piece of the way, in the programmed axes, mm.

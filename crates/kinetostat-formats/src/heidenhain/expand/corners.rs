@@ -7,19 +7,17 @@ use nalgebra::Vector2;
 
 use crate::corner::{Cut, not_followed};
 use crate::error::ProgramError;
+use crate::flat_run::edited;
 use crate::heidenhain::blocks::Block;
-use crate::heidenhain::digits::decimals;
 use crate::heidenhain::path_words::FeedWord;
 use crate::heidenhain::reading::reader::interpret;
-use crate::heidenhain::reading::rounded::{AS_ARC, Rounded, has_corners};
+use crate::heidenhain::reading::walker::{AS_ARC, Rounded, has_corners};
+use crate::heidenhain::words::decimals;
 use crate::heidenhain::writing::words::{
     Stated, before_functions, feed_text, stands, with_blanks, word_text,
 };
 use crate::options::ReadOptions;
-use crate::refused_run::edited;
-use crate::text::edits::Edits;
-use crate::text::flat::FlatText;
-use crate::text::source::SourceFile;
+use crate::text::source::{Edits, FlatText, SourceFile};
 
 /// End of a line and the feed that it has to state.
 #[derive(Default)]

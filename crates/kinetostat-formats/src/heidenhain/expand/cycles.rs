@@ -2,12 +2,10 @@
 
 use crate::flat_run::BlockId;
 use crate::heidenhain::datum::KEPT;
-use crate::heidenhain::digits::length;
 use crate::heidenhain::expand::hole::{Hole, Stroke};
 use crate::heidenhain::expand::run::{Fault, Run};
-use crate::heidenhain::expand::values::Parameters;
-use crate::heidenhain::expand::values::begins_value;
-use crate::heidenhain::words::{Value, Word, words_of};
+use crate::heidenhain::expand::values::{Parameters, begins_value};
+use crate::heidenhain::words::{Value, Word, length, words_of};
 use crate::options::UnknownTargets;
 use crate::text::number::short;
 

@@ -1,18 +1,15 @@
 //! A program run once and written flat.
 
 use crate::error::ProgramError;
-use crate::flat_run::{BlockId, MOST_STEPS, Runs, Written};
+use crate::flat_run::{BlockId, MOST_STEPS, RefusedRun, Runs, Written, with_corners};
+use crate::heidenhain::blocks::is_numbered;
 use crate::heidenhain::expand::aside::led_aside;
 use crate::heidenhain::expand::corners::written_out;
-use crate::heidenhain::expand::program::Program;
-use crate::heidenhain::expand::run::Run;
+use crate::heidenhain::expand::run::{Program, Run};
 use crate::heidenhain::expand::values::Values;
-use crate::heidenhain::numbering::is_numbered;
 use crate::model::stated_value::told_of_values;
 use crate::options::ReadOptions;
-use crate::refused_run::{RefusedRun, with_corners};
-use crate::text::flat::FlatText;
-use crate::text::source::SourceFile;
+use crate::text::source::{FlatText, SourceFile};
 
 /// Runs a Heidenhain program once and writes it flat: labels that are called and repeated, other programs (given behind the first
 /// one), jumps and Q parameters, drilling by cycles 200, 201, 203 and 1, corners that are rounded (RND, between two lines or a line and an

@@ -2,13 +2,10 @@
 
 use crate::error::ProgramError;
 use crate::flat_run::BlockId;
-use crate::heidenhain::called::called_name;
-use crate::heidenhain::expand::expression::value_of;
-use crate::heidenhain::expand::program::Program;
-use crate::heidenhain::expand::run::{Fault, Frame, Next, Run};
-use crate::heidenhain::expand::values::STATE_VALUE;
-use crate::heidenhain::flow::label_name;
-use crate::heidenhain::title::other_end;
+use crate::heidenhain::blocks::other_end;
+use crate::heidenhain::expand::run::{Fault, Frame, Next, Program, Run};
+use crate::heidenhain::expand::values::{STATE_VALUE, value_of};
+use crate::heidenhain::flow::{called_name, label_name};
 use crate::heidenhain::words::Word;
 
 impl Run<'_> {

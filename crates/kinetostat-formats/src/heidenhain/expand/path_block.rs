@@ -7,7 +7,7 @@ use crate::heidenhain::flow::label_name;
 use crate::heidenhain::path_words::{FeedWord, PathWords};
 use crate::heidenhain::words::{Value, Word, words_of};
 use crate::heidenhain::writing::words::{before_functions, take_out};
-use crate::text::edits::Edits;
+use crate::text::source::Edits;
 
 impl Run<'_> {
     /// The feed of a tool that is taken is in force; its radius, where the program defines it, is Q108 from there on.

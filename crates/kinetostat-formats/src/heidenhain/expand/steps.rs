@@ -2,14 +2,13 @@
 
 use std::ops::Range;
 
-use crate::flat_run::{BlockId, Runs, Written};
+use crate::flat_run::{Behind, BlockId, Runs, Written};
 use crate::heidenhain::blocks::{STRAY, STRAY_REMEDY};
 use crate::heidenhain::expand::run::{DEEPEST, Fault, Frame, Next, Run};
 use crate::heidenhain::expand::values::begins_value;
 use crate::heidenhain::flow::NOT_ALONE;
 use crate::heidenhain::words::{EXPONENT, Value, Word, exponent};
-use crate::model::slash_blocks::{SLASHED, SlashBlocks};
-use crate::refused_run::Behind;
+use crate::model::stated_value::{SLASHED, SlashBlocks};
 use crate::text::source::SourceFile;
 
 impl Runs for Run<'_> {

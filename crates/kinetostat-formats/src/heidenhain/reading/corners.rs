@@ -8,11 +8,10 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use crate::corner::{Beside, Corner, Cut, rounding};
+use crate::heidenhain::arcs::XY;
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::ends::Went;
-use crate::heidenhain::plane::XY;
-use crate::heidenhain::reading::rounded::{AS_ARC, AS_LINE, Line, Pending, Rounded};
-use crate::heidenhain::reading::walker::Reader;
+use crate::heidenhain::reading::walker::{AS_ARC, AS_LINE, Line, Pending, Reader, Rounded};
 use crate::heidenhain::words::Word;
 
 /// An arc that turns by more has no corner of its own, rad.

@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
+use crate::heidenhain::arcs::XY;
 use crate::heidenhain::blocks::{Block, STRAY, STRAY_REMEDY};
 use crate::heidenhain::datum::{Bend, Change, KEPT, PARAMETER, change};
-use crate::heidenhain::plane::XY;
 use crate::heidenhain::reading::walker::{BUILDERS, Reader, TILTED, TILTED_REMEDY};
 use crate::heidenhain::words::{Value, Word};
-use crate::model::findings::stays_as_written;
+use crate::model::parsed::stays_as_written;
 
 /// Cycles that do nothing before they are called: drilling, pockets, studs, slots, contours, threads, gears.
 fn acts_where_called(cycle: u32) -> bool {

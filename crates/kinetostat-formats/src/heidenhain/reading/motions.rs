@@ -4,12 +4,11 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 
-use crate::apt::places::frame_use;
+use crate::apt::file_reader::frame_use;
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::datum::is_followed;
 use crate::heidenhain::ends::Shape;
-use crate::heidenhain::reading::found::{PoleThere, Way};
-use crate::heidenhain::reading::walker::Reader;
+use crate::heidenhain::reading::walker::{PoleThere, Reader, Way};
 use crate::heidenhain::words::Word;
 use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::site::{MotionSite, SpeedSite, TargetSite};

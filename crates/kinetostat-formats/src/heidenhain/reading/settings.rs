@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use nalgebra::Vector2;
 
+use crate::heidenhain::arcs::Plane;
 use crate::heidenhain::datum::axis_of;
-use crate::heidenhain::plane::Plane;
 use crate::heidenhain::reading::walker::{BY_PARAMETER, EXPAND, Reader};
 use crate::heidenhain::state::Pole;
 use crate::heidenhain::words::{Value, Word};

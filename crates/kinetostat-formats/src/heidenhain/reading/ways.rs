@@ -4,14 +4,14 @@ use std::ops::Range;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::heidenhain::arcs::XY;
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::datum::Bend;
 use crate::heidenhain::ends::{Ends, Went};
 use crate::heidenhain::path_words::{FeedWord, PathWords};
-use crate::heidenhain::plane::XY;
 use crate::heidenhain::reading::motions::{Carried, MotionEnd, UNSTATED};
 use crate::heidenhain::reading::walker::Reader;
-use crate::heidenhain::tilt::Stands;
+use crate::heidenhain::state::Stands;
 use crate::heidenhain::words::Word;
 use crate::model::motion::MotionKind;
 use crate::model::orientation::OrientationText;

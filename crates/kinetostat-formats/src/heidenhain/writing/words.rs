@@ -3,9 +3,8 @@
 use crate::heidenhain::path_words::{FeedWord, PathWords, RotaryWord, has_words};
 use crate::heidenhain::table::{Function, function};
 use crate::heidenhain::words::Word;
-use crate::text::edits::Edits;
 use crate::text::number::{NumberText, Width, printed, short};
-use crate::text::source::SourceFile;
+use crate::text::source::{Edits, SourceFile};
 use crate::writing::piece::Piece;
 
 /// Functions of a block that is divided: those at its beginning on the first piece, those at its end on the last.

@@ -12,16 +12,15 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 
 use crate::error::WriteError;
-use crate::heidenhain::numbering::numbered_again;
-use crate::heidenhain::reading::found::{Found, Way};
+use crate::heidenhain::blocks::numbered_again;
 use crate::heidenhain::reading::reader::interpret;
+use crate::heidenhain::reading::walker::{Found, Way};
 use crate::heidenhain::writing::writer::{Reason, Writer};
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 use crate::options::{ReadOptions, WriteOptions};
-use crate::text::edits::Edits;
-use crate::text::source::SourceFile;
-use crate::writing::line_length::check_lines;
+use crate::text::source::{Edits, SourceFile};
+use crate::writing::motions::check_lines;
 use crate::writing::piece::Piece;
 
 /// The files of a program with pieces in place of its motions.

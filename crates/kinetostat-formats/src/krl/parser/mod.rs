@@ -2,5 +2,4 @@
 
 mod blocks;
 pub(crate) mod cursor;
-mod declarations;
 pub(crate) mod routines;

@@ -2,5 +2,4 @@
 
 mod renamed;
 mod stated;
-mod steps;
 pub(crate) mod write;

@@ -6,11 +6,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use crate::interpreter::token::{Line, TokenFile};
-use crate::krl::folds::folds_of;
-use crate::krl::lex::token_file;
+use crate::krl::lex::{folds_of, token_file};
 use crate::krl::table::only_reads;
 use crate::model::program::RobotProgram;
-use crate::text::edits::Edits;
+use crate::text::source::Edits;
 use crate::writing::syntax::Renamed;
 
 /// Declaration of a FDAT: its statement, and the name in it behind the F.

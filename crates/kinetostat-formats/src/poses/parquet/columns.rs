@@ -9,8 +9,9 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::{ColumnPath, Type, TypePtr};
 
-use crate::poses::parquet::data::{Data, MOST_ROWS, Values, append, of_reader};
-use crate::poses::parquet::kind::{Kind, printed, type_of};
+use crate::poses::parquet::data::{
+    Data, Kind, MOST_ROWS, Values, append, of_reader, printed, type_of,
+};
 
 /// Metadata key of Arrow's own schema.
 const ARROW: &str = "ARROW:schema";

@@ -5,8 +5,7 @@ use parquet::file::metadata::KeyValue;
 use crate::poses::cells::{PARQUET_ROW, cells_of};
 use crate::poses::layout::{Named, layout_of};
 use crate::poses::parquet::columns::Columns;
-use crate::poses::parquet::data::Data;
-use crate::poses::parquet::kind::{Kind, printed, quoted};
+use crate::poses::parquet::data::{Data, Kind, printed, quoted};
 
 /// Comments of the text are metadata under this key.
 const KEY: &str = "kinetostat";

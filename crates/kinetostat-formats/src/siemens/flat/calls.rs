@@ -4,8 +4,7 @@
 //! Source: Siemens, SINUMERIK 840D sl / 828D, programming manual, job planning, "Save modal G functions (SAVE)", and function manual,
 //! basic functions, K2 "Subprograms with SAVE attribute": behind the call the frame that was active before it is active again.
 
-use crate::flat_run::Runs;
-use crate::refused_run::Behind;
+use crate::flat_run::{Behind, Runs};
 use crate::siemens::block::{Argument, Item, What};
 use crate::siemens::called::{key_of_call, named_by};
 use crate::siemens::expression::Expression;

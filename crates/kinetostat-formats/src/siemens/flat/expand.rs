@@ -5,18 +5,15 @@ use std::collections::btree_map::Entry;
 use std::ops::Range;
 
 use crate::error::ProgramError;
-use crate::flat_run::{MOST_STEPS, Runs};
+use crate::flat_run::{MOST_STEPS, RefusedRun, Runs, with_corners};
 use crate::model::stated_value::told_of_values;
 use crate::options::ReadOptions;
-use crate::refused_run::{RefusedRun, with_corners};
 use crate::siemens::block::{Block, What};
-use crate::siemens::called::program_name;
-use crate::siemens::files::whole_file;
+use crate::siemens::called::{program_name, whole_file};
 use crate::siemens::flat::corners::written_out;
 use crate::siemens::flat::runner::Runner;
 use crate::siemens::flat::structure::Unit;
-use crate::text::flat::FlatText;
-use crate::text::source::SourceFile;
+use crate::text::source::{FlatText, SourceFile};
 
 /// Words that say what runs.
 const FLOW: [&str; 28] = [

@@ -1,7 +1,7 @@
 //! Programs with jumps, loops, calls and drilling cycles: run once, and written flat.
 //!
 //! [`structure`] reads the control flow of a file ([`statements`]), [`run`] follows it, [`mod@print`] writes the blocks with numbers in place of
-//! expressions, [`holes`] the blocks of drilling cycles (a note names what of them is not certain), [`patterns`] those of rows and circles of holes, [`corners`] those of rounded and broken corners.
+//! expressions, [`holes`] the blocks of drilling cycles (a note names what of them is not certain) and those of rows and circles of holes, [`corners`] those of rounded and broken corners.
 
 mod calls;
 mod corners;
@@ -9,7 +9,6 @@ mod drilling;
 mod expand;
 mod holes;
 mod modes;
-mod patterns;
 mod print;
 mod run;
 mod runner;

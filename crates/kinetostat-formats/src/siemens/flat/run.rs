@@ -2,9 +2,8 @@
 
 use std::ops::Range;
 
-use crate::flat_run::{BlockId, Runs, Written};
-use crate::model::slash_blocks::SlashBlocks;
-use crate::refused_run::Behind;
+use crate::flat_run::{Behind, BlockId, Runs, Written};
+use crate::model::stated_value::SlashBlocks;
 use crate::siemens::block::Item;
 use crate::siemens::declarations::define;
 use crate::siemens::expression::Expression;

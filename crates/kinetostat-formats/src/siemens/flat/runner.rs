@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use crate::error::ProgramError;
 use crate::flat_run::{BlockId, Written};
-use crate::model::slash_blocks::SlashBlocks;
+use crate::model::stated_value::SlashBlocks;
 use crate::options::ReadOptions;
 use crate::siemens::block::What;
 use crate::siemens::expression::Expression;

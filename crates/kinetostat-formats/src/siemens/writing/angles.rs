@@ -3,11 +3,11 @@
 //! The pieces of a block share its turns out: each states its angle in the way of the block's own word, and one without a word
 //! states it where it is another one than stands. What is rounded in one piece is made up for in the next.
 
-use crate::axis_count::{AxisCount, EndWord, turns_below};
 use crate::siemens::block::How;
 use crate::siemens::state::Coordinate;
 use crate::siemens::writing::writer::Writer;
 use crate::text::number::{Width, printed};
+use crate::turned_axis::{AxisCount, EndWord, turns_below};
 use crate::writing::piece::Piece;
 
 /// Half of the last digit of an angle, deg.
