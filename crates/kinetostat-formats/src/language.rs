@@ -1,8 +1,11 @@
 //! Language of a file, and the registry of languages: a line for each.
+//!
+//! A language is a folder of this crate: its reader, its writer, its table of statements, and a file `language.rs` with what all other
+//! files ask of it ([`ProgramLanguage`]). They ask the [`Language`] of a program, which is one of this list and stands for its entry.
 
 use std::ops::Deref;
 
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::program_language::ProgramLanguage;
 
 /// Bytes of a file that are looked at for its language.
@@ -91,9 +94,6 @@ pub fn language_of(name: &str, bytes: &[u8]) -> Option<Language> {
     let mut all = Language::ALL.into_iter().filter(|_| shared);
     all.find(|language| language.is_beginning(&beginning))
 }
-
-// A language is a folder of this crate: its reader, its writer, its table of statements, and a file `language.rs` with what all other
-// files ask of it ([`ProgramLanguage`]). They ask the [`Language`] of a program, which is one of this list and stands for its entry.
 
 /// Gives a macro the languages in the order in which they are listed: the name of each in code, in words, and its entry.
 macro_rules! each_language {

@@ -189,6 +189,8 @@ impl StandingAxis {
     }
 }
 
+// Counting of a rotary axis: on over whole turns, or from 0 to 360 deg and then from 0 again (a modulo axis).
+//
 // A program does not state it. It shows in words that only one of the two takes: DC, ACP and ACN turn a modulo axis (SINUMERIK), an
 // absolute angle outside 0 to 360 deg one that counts on. Where nothing shows it, both readings are to be right.
 

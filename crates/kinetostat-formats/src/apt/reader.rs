@@ -5,7 +5,7 @@ use crate::apt::lines::{Argument, Statement, arguments_of, statements_of};
 use crate::apt::state::{State, feed_of, spindle_of, system_of, unit_of};
 use crate::apt::table::{Dialect, row};
 use crate::error::ProgramError;
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
 use crate::options::{CutterCompensation, ReadOptions};

@@ -131,6 +131,8 @@ pub(crate) fn system_of(numbers: &[f64], unit_mm: f64) -> Option<Isometry3<f64>>
     })
 }
 
+// Spindle rotation from `SPINDL`: `SPINDL/3500,RPM,CLW`, `SPINDL/RPM,3500,CCLW`, `SPINDL/ON`, `SPINDL/OFF`.
+
 /// Spindle state after a statement `SPINDL`. A number without a unit is in rpm, and the sense is clockwise if none is stated; a surface speed (`SFM`,
 /// `SMM`) gives no rpm without the tool's diameter.
 pub(crate) fn spindle_of(file: &SourceFile, statement: &Statement, before: Spindle) -> Spindle {

@@ -173,6 +173,8 @@ fn failed(error: ParquetError) -> FieldError {
     FieldError(error.to_string())
 }
 
+// A row for each place of a grid; columns of doubles, whose units and meanings stand in the metadata of the file.
+
 /// Rows of a group.
 const ROWS_OF_GRID: usize = 1 << 20;
 

@@ -114,6 +114,8 @@ fn block(bytes: &[u8], lines: Range<usize>) -> Block {
     }
 }
 
+// Block numbers: a control shows and loads blocks that are numbered one after another.
+
 /// A program whose numbered blocks are numbered one after another from its first number. Blanks behind a number give way
 /// where it becomes longer.
 pub(crate) fn numbered_again(bytes: &[u8]) -> Option<Vec<u8>> {

@@ -4,15 +4,14 @@ use std::marker::PhantomData;
 
 use crate::error::{ProgramError, WriteError};
 use crate::flat_run::RefusedRun;
-use crate::interpreter::assigned::symbols_of;
 use crate::interpreter::blocks::module_of;
 use crate::interpreter::flat::flat_of;
-use crate::interpreter::lexing::{Words, tokens_of};
+use crate::interpreter::lexing::{Words, symbols_of, tokens_of};
 use crate::interpreter::run::{Dialect, Run};
 use crate::interpreter::symbols::Symbols;
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::{Module, RoutineKind};
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::parsed::{Parsed, Read};
 use crate::model::program::RobotProgram;
 use crate::options::{ReadOptions, WriteOptions};

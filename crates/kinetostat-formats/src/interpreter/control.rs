@@ -12,7 +12,7 @@ use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::{Choice, Flow, Leave, LoopKind, Statement};
 use crate::interpreter::value::Datum;
 use crate::model::program::ENDLESS;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Limit of repeated statements of a run: in loops, and in routines that others call.
 const MOST_REPEATED: usize = 1_000_000;

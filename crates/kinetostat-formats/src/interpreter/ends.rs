@@ -8,15 +8,14 @@ use crate::interpreter::expression::{Expression, Node};
 use crate::interpreter::run::{Dialect, Reason, Run};
 use crate::interpreter::tree::DatumNode;
 use crate::interpreter::value::{Datum, Value};
-use crate::model::frame::{Frame, FrameUse};
-use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
+use crate::model::motion::{Frame, FrameUse, Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::orientation::OrientationText;
 use crate::model::site::{
     Declaration, DeclarationCopy, MotionSite, PoseText, ReplacedText, TargetSite,
 };
 use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::UnknownTargets;
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::number::{NumberText, Width};
 
 /// Form of poses in a language: six numbers or more, of which the first three are the position.

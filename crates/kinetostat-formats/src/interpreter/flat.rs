@@ -16,7 +16,7 @@ use crate::interpreter::tree::RoutineKind;
 use crate::interpreter::value::Datum;
 use crate::model::program::RanStatement;
 use crate::model::site::TargetSite;
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::source::{Edits, Finding, FlatText, SourceFile};
 
 impl<D: Dialect> Run<'_, '_, D> {

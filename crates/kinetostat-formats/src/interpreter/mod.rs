@@ -4,12 +4,11 @@
 //! or a loop on an unknown value is passed over where its arms neither move the tool nor change what is in force.
 //!
 //! A language brings its tokens ([`token`]), its grammar of expressions ([`reading`]), its statements as a [`tree`] with [`symbols`] (by the
-//! words of its blocks: [`lexing`], [`blocks`], [`assigned`], [`block_files`]), and what is its own by [`run::Dialect`]. Shared are the order of the run ([`control`], [`passing`]), its data ([`storage`],
-//! [`evaluate`], [`operation`], [`value`]), and the targets at which motions end ([`ends`], [`targets`]);
-//! [`whole`] runs all programs of the files and says at the end what a person should know;
-//! [`flat`] writes a program flat.
+//! words of its blocks: [`lexing`], [`blocks`], [`block_files`]), and what is its own by [`run::Dialect`]. Shared are the order of the run
+//! ([`control`], [`passing`]), its data ([`storage`], [`evaluate`], [`operation`], [`value`]), and the targets at which motions end
+//! ([`ends`], [`targets`]); [`whole`] runs all programs of the files and says at the end what a person should know; [`flat`] writes a
+//! program flat.
 
-pub(crate) mod assigned;
 pub(crate) mod block_files;
 pub(crate) mod blocks;
 pub(crate) mod calls;

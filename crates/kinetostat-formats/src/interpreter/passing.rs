@@ -9,7 +9,7 @@ use crate::interpreter::symbols::{Meaning, Scope};
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::{Leave, LoopKind, Statement};
 use crate::interpreter::value::Datum;
-use crate::text::name::Name;
+use crate::text::Name;
 
 impl<D: Dialect> Run<'_, '_, D> {
     /// Passes over blocks of which only the controller knows whether they run: what they assign is unknown behind them. A block that moves the

@@ -14,11 +14,10 @@ use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::{Choice, Counting, DatumNode, Flow, Leave, RoutineKind};
 use crate::interpreter::value::{Datum, StatedValues, Step, printed};
 use crate::model::motion::{Motion, Runs};
-use crate::model::outside_call::OutsideCall;
-use crate::model::program::RanStatement;
+use crate::model::program::{OutsideCall, RanStatement};
 use crate::options::ReadOptions;
 use crate::table::{StatementRow, Treatment};
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::source::Finding;
 
 /// The reason why something is refused, and the remedy.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::source::SourceFile;
 
 /// Kinds of tokens.

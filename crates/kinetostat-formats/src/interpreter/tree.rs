@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::interpreter::value::Datum;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Mutability of a datum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,7 +7,7 @@ use std::rc::Rc;
 use crate::interpreter::reading::Grammar;
 use crate::model::stated_value::StatedValue;
 use crate::options::ReadOptions;
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::number::NumberText;
 use crate::text::source::Finding;
 

@@ -14,7 +14,7 @@ use crate::interpreter::value::{Datum, Step, Value};
 use crate::model::motion::{Runs, mark_repeated};
 use crate::model::parsed::unreached_motions;
 use crate::model::site::TargetSite;
-use crate::text::name::Name;
+use crate::text::Name;
 
 impl<D: Dialect> Run<'_, '_, D> {
     /// Runs `main`, then each procedure that nothing calls as a program of its own.

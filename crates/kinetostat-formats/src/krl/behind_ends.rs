@@ -183,6 +183,8 @@ fn not_known(text: &str) -> Reason {
     )
 }
 
+// Text position of a motion's speed, and of a replacement: before it, where it stays in force, or in its own WITH.
+
 /// mm/s in one m/s, in which KRL states speeds.
 const METRE_MM: f64 = 1000.0;
 

@@ -18,7 +18,7 @@ use crate::krl::settings::is_in_force;
 use crate::krl::state::{InForce, Krl, Role, Run};
 use crate::krl::table::{motion_row, only_reads, row};
 use crate::table::Treatment;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Limit of the elements of an undeclared array.
 const MOST_UNDECLARED: usize = 128;

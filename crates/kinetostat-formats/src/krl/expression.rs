@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::interpreter::expression::{Argument, Expression, Operator};
 use crate::interpreter::reading::{self, Grammar};
 use crate::interpreter::token::{Kind, TokenFile};
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Source: KUKA System Software 8.x, Operating and Programming Instructions for System Integrators, Priority of operators. It binds AND
 /// more strongly than `==`, which few programs mean: where both stand without brackets, nothing is read.

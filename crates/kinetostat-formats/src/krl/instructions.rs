@@ -14,7 +14,7 @@ use crate::krl::state::Run;
 use crate::krl::table::{Ends, MotionRow, OPERATORS, motion_row, row};
 use crate::model::motion::Zone;
 use crate::table::Treatment;
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::source::Finding;
 
 impl Run<'_, '_> {

@@ -6,8 +6,8 @@ use nalgebra::Vector3;
 
 use crate::error::WriteError;
 use crate::flat_run::RefusedRun;
+use crate::krl::frames::krl_needs_config;
 use crate::krl::reader::{expand_krl, is_data_list, parse_krl};
-use crate::krl::system_frames::krl_needs_config;
 use crate::krl::table::{IN_MOTIONS, KRL_STATEMENTS, MODES, MOTIONS, row};
 use crate::krl::writing::write::write_krl;
 use crate::model::motion::Motion;
@@ -18,7 +18,7 @@ use crate::model::target::{Configuration, StatedArm};
 use crate::options::{ReadOptions, WriteOptions};
 use crate::program_language::{ProgramLanguage, WrittenFile, of_run, with_ending};
 use crate::table::StatementRow;
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::source::{FlatText, SourceFile};
 use crate::writing::piece::Piece;
 

@@ -11,7 +11,7 @@ use winnow::stream::LocatingSlice;
 use winnow::token::{any, one_of, take_till, take_while};
 
 use crate::interpreter::token::{Kind, Line, Token, TokenFile};
-use crate::model::frame::FrameUse;
+use crate::model::motion::FrameUse;
 use crate::text::source::{SourceFile, beginning};
 
 type Input<'i> = LocatingSlice<&'i [u8]>;
@@ -146,6 +146,8 @@ fn bits(input: &mut Input<'_>) -> Result<(), Nothing> {
         .void()
         .parse_next(input)
 }
+
+// FOLDs: what the pendant shows of the statements in them. They are carried; nothing here trusts their text.
 
 /// Opening line of the surrounding fold, for each line.
 pub(crate) fn folds_of(file: &TokenFile<'_>) -> Vec<Option<usize>> {

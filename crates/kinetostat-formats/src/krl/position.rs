@@ -9,7 +9,7 @@ use crate::interpreter::value::{Datum, Value};
 use crate::model::orientation::OrientationText;
 use crate::model::site::PoseText;
 use crate::model::target::{Configuration, PoseTarget};
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::number::{NumberText, Width};
 
 pub(crate) const PLACE: [&str; 6] = ["X", "Y", "Z", "A", "B", "C"];

@@ -8,14 +8,14 @@ use crate::interpreter::symbols::Symbols;
 use crate::interpreter::token::{Kind, TokenFile};
 use crate::interpreter::tree::{Change, DatumNode, Sight};
 use crate::krl::lex::{not_paired, token_file};
-use crate::krl::parser::cursor::Content;
+use crate::krl::parser::blocks::Content;
 use crate::krl::parser::routines::content_of;
 use crate::krl::state::Krl;
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::parsed::{Parsed, Read};
 use crate::model::program::RobotProgram;
 use crate::options::{ExternalAxes, ReadOptions};
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::source::{Finding, FlatText, SourceFile};
 
 /// Limit of the bytes of a file; the memory needed is some forty times as much.

@@ -10,9 +10,8 @@ use crate::interpreter::token::TokenFile;
 use crate::interpreter::value::{Datum, Value};
 use crate::krl::expression::expression_of;
 use crate::krl::state::{PointData, Role, Run, auxiliary_turn, choice_of, keeps_its_orientation};
-use crate::model::frame::FrameUse;
-use crate::model::motion::Speed;
-use crate::text::name::Name;
+use crate::model::motion::{FrameUse, Speed};
+use crate::text::Name;
 
 /// Names of what is in force: an assignment to one changes how motions run.
 const IN_FORCE: [&str; 15] = [
@@ -217,6 +216,8 @@ fn first_argument(file: &TokenFile<'_>, call: &Expression) -> Expression {
     expression_of(file, open..end)
 }
 
+// BAS, by which inline forms put in force what their data state: `BAS(#CP_PARAMS,0.2)`.
+
 impl Run<'_, '_> {
     /// `BAS(#COMMAND,value)`: tokens of the whole call.
     pub(super) fn bas(&mut self, tokens: &Range<usize>) -> Result<(), Reason> {
@@ -291,6 +292,8 @@ impl Run<'_, '_> {
         Ok(())
     }
 }
+
+// Assignments to system variables that move the tool on its points, or apart from them: refused.
 
 /// The tool stands still and the part is in the hand: base and tool change their parts.
 pub(crate) const EXTERNAL_TOOL: &str =

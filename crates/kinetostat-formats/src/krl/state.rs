@@ -13,12 +13,11 @@ use crate::interpreter::symbols::Symbols;
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::Statement;
 use crate::interpreter::value::{Datum, Value};
-use crate::model::frame::FrameUse;
-use crate::model::motion::Speed;
+use crate::model::motion::{FrameUse, Speed};
 use crate::model::site::{TurnsOtherwise, not_evenly};
 use crate::model::target::PoseTarget;
 use crate::options::ReadOptions;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// A run of a KRL program.
 pub(crate) type Run<'r, 'p> = run::Run<'r, 'p, Krl>;
@@ -131,6 +130,8 @@ fn assigned(files: &[TokenFile<'_>], symbols: &Symbols<'_>) -> BTreeMap<Name, us
     }
     found
 }
+
+// Orientation control of the tool: `$ORI_TYPE=#VAR`, `$CIRC_TYPE=SCIRC_TYP(LCPDAT1)`, `$SINGUL_STRATEGY=0`, and the data of `LDAT_ACT=LCPDAT1`.
 
 /// Motions with constant orientation.
 pub(crate) const KEPT: TurnsOtherwise = TurnsOtherwise {

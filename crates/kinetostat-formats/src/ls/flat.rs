@@ -17,7 +17,7 @@ use crate::ls::step::{Step, comma_in};
 use crate::ls::write::numbered;
 use crate::model::motion::Motion;
 use crate::options::ReadOptions;
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::source::{Edits, FlatText, SourceFile};
 
 impl Run<'_, '_> {

@@ -8,12 +8,11 @@ use crate::ls::positions::{Held, Position};
 use crate::ls::run::{InForce, Run, index_of_axes};
 use crate::ls::storage::{frame_of, name_of};
 use crate::ls::table::OFFSET;
-use crate::model::frame::{Frame, FrameUse};
-use crate::model::motion::{Motion, MotionKind, Runs, Speed};
+use crate::model::motion::{Frame, FrameUse, Motion, MotionKind, Runs, Speed};
 use crate::model::site::{MotionSite, OffsetAxes, TargetSite, TurnsOtherwise};
 use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::UnknownTargets;
-use crate::text::name::Name;
+use crate::text::Name;
 
 impl Run<'_, '_> {
     /// Offset of a motion; `None` if only the controller knows it, or if a register turns the tool.

@@ -334,6 +334,8 @@ pub(crate) fn is_configuration(text: &str) -> bool {
     is_once && turns == [true; 3]
 }
 
+// Names that people give positions: `P[3:"corner"]` in the section `/POS`, `P[3:corner]` in a motion.
+
 /// Number and name in `P[3:"corner"]`, with which a text begins; none without a name.
 fn named(text: &str) -> Option<(u32, &str)> {
     let inside = text.strip_prefix("P[")?;

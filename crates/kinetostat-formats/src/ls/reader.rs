@@ -11,10 +11,9 @@ use crate::ls::program::Program;
 use crate::ls::run::{Files, Reader, Run};
 use crate::ls::step::{Step, name_from, positions_read, step_of};
 use crate::ls::table::row;
-use crate::model::language::Language;
-use crate::model::outside_call::OutsideCall;
+use crate::model::Language;
 use crate::model::parsed::{Parsed, Read};
-use crate::model::program::RobotProgram;
+use crate::model::program::{OutsideCall, RobotProgram};
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::source::SourceFile;
 

@@ -13,12 +13,11 @@ use crate::ls::positions::{Held, Positions};
 use crate::ls::program::Program;
 use crate::ls::step::Step;
 use crate::model::motion::{Motion, Runs, mark_repeated};
-use crate::model::outside_call::OutsideCall;
 use crate::model::parsed::unreached_motions;
-use crate::model::program::{ENDLESS, RanStatement};
+use crate::model::program::{ENDLESS, OutsideCall, RanStatement};
 use crate::model::site::{Declaration, OffsetAxes};
 use crate::options::ReadOptions;
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::source::{Finding, SourceFile};
 
 /// The programs of the files.

@@ -9,7 +9,7 @@ use crate::ls::motion::{MotionText, Reason, motion_of};
 use crate::ls::table::row;
 use crate::model::site::OffsetAxes;
 use crate::table::Treatment;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// A call of a program.
 #[derive(Debug, Clone, PartialEq)]

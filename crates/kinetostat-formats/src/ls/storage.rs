@@ -15,7 +15,7 @@ use crate::ls::program::label_of;
 use crate::ls::run::{InForce, Modal, Run};
 use crate::ls::step::FRAME_DATA;
 use crate::model::orientation::OrientationText;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Signals that are on or off.
 const SIGNALS: [&str; 11] = [

@@ -5,11 +5,11 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::document::read;
 use crate::extreme::larger;
-use crate::making::fault::MakeError;
+use crate::making::MakeError;
 use crate::making::limits::MakeLanguage;
 use crate::making::step::{MadeMotion, Step, Way};
 use crate::making::template::Template;
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::motion::{MotionKind, Runs};
 use crate::model::target::Target;
 use crate::options::ReadOptions;

@@ -3,8 +3,8 @@
 use kinetostat_program::SpindleRotation;
 use nalgebra::Vector3;
 
+use crate::making::MakeError;
 use crate::making::events::{Coolant, EventAction};
-use crate::making::fault::MakeError;
 use crate::making::names::{coordinates, fixed, short};
 use crate::making::step::{Step, Way};
 use crate::making::template::Template;

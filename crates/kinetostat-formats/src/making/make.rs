@@ -8,14 +8,13 @@ use nalgebra::Vector3;
 use crate::making::compare::{Kept, compare, read_again};
 use crate::making::course::Course;
 use crate::making::events::{Coolant, EventAction, SourceEvent};
-use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
 use crate::making::names::{checked, coordinates, fixed, parts_checked, short};
 use crate::making::plan::plan;
 use crate::making::stated::of_frames;
 use crate::making::step::{MadeMotion, Step, Way, parts};
 use crate::making::template::{Rapids, Template};
-use crate::making::{csv, gcode, krl, ls, rapid, stated};
+use crate::making::{MakeError, MakeFinding, csv, gcode, krl, ls, rapid, stated};
 
 /// A made program.
 #[derive(Debug, Clone, PartialEq)]

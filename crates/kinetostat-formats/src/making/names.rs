@@ -2,12 +2,12 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::making::fault::MakeError;
+use crate::making::MakeError;
 use crate::making::limits::MakeLanguage;
 use crate::making::template::{StatedFrame, StatedTool, Template};
 use crate::model::orientation::OrientationText;
 use crate::rapid::table::{motion_row, row};
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// The name of the program where controllers take it.
 pub(crate) fn checked(name: &str, language: MakeLanguage) -> Result<String, MakeError> {

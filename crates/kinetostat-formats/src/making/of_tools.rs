@@ -2,21 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use crate::krl::system_frames::tool_loads as loads_of_krl;
+use crate::krl::frames::tool_loads as loads_of_krl;
 use crate::making::course::before_motion;
 use crate::making::events::SourceEvent;
-use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
 use crate::making::stated::{has_own_zero, is_identity, is_mass, of_tool};
 use crate::making::template::{StatedFrame, StatedTool};
-use crate::model::frame::{Frame, FrameUse, ToolLoad};
-use crate::model::language::Language;
-use crate::model::motion::Motion;
+use crate::making::{MakeError, MakeFinding};
+use crate::model::Language;
+use crate::model::motion::{Frame, FrameUse, Motion, ToolLoad};
 use crate::model::program::RobotProgram;
 use crate::path::of_program::RobotPath;
 use crate::path::tools::{number_in, same_frame, tool_numbers};
 use crate::rapid::literals::tool_loads;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// The tools of a made program.
 #[derive(Default)]

@@ -4,7 +4,7 @@ use kinetostat_program::{Arc, Curve, Move, ToolTurn};
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
 use crate::extreme::larger;
-use crate::making::fault::MakeFinding;
+use crate::making::MakeFinding;
 use crate::making::limits::{Arcs, Limits, MakeLanguage};
 
 /// Shape of a piece of a move.
@@ -127,6 +127,8 @@ fn why_followed(
     }
 }
 
+// Straight moves divided so that the tool turns in them as it does in the source: controllers turn it by laws of their own.
+//
 // `LIN` swivels the x of the tool in a plane and turns the tool about it, `MoveL`, `L` of FANUC and tables turn it about one axis, APT
 // states where its axis points, and rotary axes turn as they do ([`ToolTurn`]): with the same ends the tool stands otherwise between them.
 

@@ -6,16 +6,15 @@ use kinetostat_program::{COMPENSATED_MARK, Knowledge, Move, MoveKind, Path, Spin
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::making::course::Course;
-use crate::making::dynamics::speed_remedy;
 use crate::making::events::{EventAction, EventKind, SourceEvent};
-use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::{Limits, MakeLanguage};
 use crate::making::names::plain;
-use crate::making::otherwise::{Otherwise, further_axes};
+use crate::making::otherwise::{Otherwise, further_axes, speed_remedy};
 use crate::making::pieces::{Shape, Turned, pieces_of};
 use crate::making::step::{MadeMotion, Step, Way, stops};
 use crate::making::template::{PlacesUnknown, Rapids, Template};
 use crate::making::tools_told::{other_edges, told};
+use crate::making::{MakeError, MakeFinding};
 
 /// Steps, and what a person should know of them.
 pub(crate) struct Planned {

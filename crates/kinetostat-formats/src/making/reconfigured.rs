@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::making::fault::MakeFinding;
+use crate::making::MakeFinding;
 use crate::making::limits::MakeLanguage;
 use crate::making::routines::{running_lines, words_of};
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::motion::MotionKind;
 use crate::model::program::RobotProgram;
 use crate::model::target::{Configuration, Target};

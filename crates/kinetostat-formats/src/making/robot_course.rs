@@ -4,11 +4,11 @@ use std::collections::{BTreeMap, VecDeque};
 
 use crate::making::course::{Course, at, counted_on_lines, place_of};
 use crate::making::events::{EventKind, SourceEvent};
+use crate::making::motion_events::comment_behind;
 use crate::making::of_tools::changes_of_source;
 use crate::making::robot_events::events_of_robot;
 use crate::making::routines::{Part, running_lines};
-use crate::making::statements::comment_behind;
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::program::RobotProgram;
 use crate::path::of_program::RobotPath;
 

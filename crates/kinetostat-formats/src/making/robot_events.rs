@@ -7,10 +7,11 @@ use kinetostat_program::SpindleChange;
 use crate::making::course::place_of;
 use crate::making::events::{EventAction, EventKind, SourceEvent};
 use crate::making::heidenhain_events::events_of_heidenhain;
-use crate::making::motion_events::events_of_motions;
+use crate::making::motion_events::{
+    comment_behind, events_of_motions, kind_of, of_line, orders_only,
+};
 use crate::making::siemens_events::events_of_siemens;
-use crate::making::statements::{comment_behind, kind_of, of_line, orders_only};
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::program::RobotProgram;
 use crate::text::source::SourceFile;
 

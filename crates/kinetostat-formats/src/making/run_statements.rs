@@ -4,10 +4,9 @@ use std::ops::Range;
 
 use crate::heidenhain::blocks::blocks_of;
 use crate::making::events::{EventKind, SourceEvent};
-use crate::making::motion_events::done_in_motion;
+use crate::making::motion_events::{done_in_motion, kind_of};
 use crate::making::robot_events::events_of_robot;
-use crate::making::statements::kind_of;
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 use crate::siemens::block::{Block, What};

@@ -3,7 +3,7 @@
 use nalgebra::Isometry3;
 
 use crate::ls::positions::is_configuration;
-use crate::making::fault::MakeError;
+use crate::making::MakeError;
 use crate::making::limits::MakeLanguage;
 use crate::making::names::{angles, coordinates, is_identifier, words_taken};
 use crate::making::template::{StatedFrame, StatedTool, Template};

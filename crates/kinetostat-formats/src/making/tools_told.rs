@@ -7,11 +7,11 @@ use nalgebra::Isometry3;
 
 use crate::making::course::Course;
 use crate::making::events::EventKind;
-use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
 use crate::making::names::name_of_tool;
 use crate::making::template::{StatedTool, Template};
-use crate::model::language::Language;
+use crate::making::{MakeError, MakeFinding};
+use crate::model::Language;
 
 /// Errors and assumptions on the tools of a program and a template.
 #[derive(Debug, Default)]
@@ -161,6 +161,8 @@ fn alike(used: &Used, template: &Template, language: MakeLanguage) -> Vec<MakeEr
     faults
 }
 
+// Cutting edges of tools of SINUMERIK (`D2`): each has a length of its own, and a template tells one tip for each tool.
+//
 // Source: Siemens, SINUMERIK 840D sl, Fundamentals, "Tool offset call (D)": D1 counts behind a change of tools where none is programmed.
 
 /// The edge of which the tip counts where none is programmed.

@@ -3,13 +3,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::error::ProgramError;
+use crate::model::Language;
 use crate::model::external::moving_axis;
-use crate::model::frame::Frame;
-use crate::model::language::Language;
-use crate::model::motion::{Motion, MotionKind};
-use crate::model::outside_call::{OutsideCall, by_name, stated_to_move};
+use crate::model::motion::{Frame, Motion, MotionKind};
 use crate::model::parsed::outside_calls as named_calls;
-use crate::model::program::{RanStatement, RobotProgram, StatedAxes};
+use crate::model::program::{
+    OutsideCall, RanStatement, RobotProgram, StatedAxes, by_name, stated_to_move,
+};
 use crate::model::site::Declaration;
 use crate::model::stated_value::SlashBlocks;
 use crate::model::target::Target;

@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-use crate::model::language::Language;
+use crate::model::Language;
 
 /// Arm configuration of a pose, as written.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -11,8 +11,8 @@ use nalgebra::Vector3;
 
 use crate::model::motion::Motion;
 use crate::model::program::{AxesStated, RobotProgram};
+use crate::path::PathError;
 use crate::path::axis_turns::{OVER, axis_of};
-use crate::path::fault::PathError;
 
 /// Motion of the rotary axes in one motion of the program.
 #[derive(Debug, Clone, PartialEq)]

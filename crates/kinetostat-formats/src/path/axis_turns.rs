@@ -11,7 +11,7 @@ use crate::model::motion::Motion;
 use crate::model::orientation::OrientationText;
 use crate::model::program::RobotProgram;
 use crate::model::site::TargetSite;
-use crate::path::fault::PathError;
+use crate::path::PathError;
 
 /// Rule for the rotation of the tool about its axis, for programs that state the axis alone.
 ///

@@ -14,7 +14,7 @@ use crate::model::orientation::OrientationText;
 use crate::model::program::RobotProgram;
 use crate::model::site::TargetSite;
 use crate::options::{ReadOptions, WriteOptions};
-use crate::path::fault::broken;
+use crate::path::broken;
 use crate::path::header::{mark_line, with_header};
 use crate::path::kept_lines::ReadProgram;
 use crate::path::maker::PathOptions;

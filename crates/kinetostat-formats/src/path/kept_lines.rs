@@ -7,11 +7,11 @@ use kinetostat_program::{Corrected, WriteError};
 
 use crate::interpreter::token::TokenFile;
 use crate::krl::lex::{folds_of, token_file};
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 use crate::model::site::TargetSite;
-use crate::path::fault::broken;
+use crate::path::broken;
 use crate::path::of_program::RobotPath;
 
 /// A program with its path.

@@ -15,7 +15,7 @@ use crate::model::site::{PoseText, TargetSite};
 use crate::model::target::Target;
 use crate::path::axis_angles::{AxesOfMotion, axes_of_motions};
 use crate::path::axis_turns::{TurnAboutAxis, axis_turns, is_by_axis};
-use crate::path::fault::{PathError, fault_at};
+use crate::path::{PathError, fault_at};
 use crate::text::source::SourceFile;
 
 /// The motions of a program, and what their moves need beside them.

@@ -3,15 +3,14 @@
 use thiserror::Error;
 
 use crate::error::ProgramError;
-use crate::model::frame::FrameUse;
-use crate::model::language::Language;
-use crate::model::motion::{Motion, MotionKind};
+use crate::model::Language;
+use crate::model::motion::{FrameUse, Motion, MotionKind};
 use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
 use crate::model::site::not_evenly;
 use crate::options::ReadOptions;
-use crate::path::fault::{PathError, fault_at};
 use crate::path::tools::{same_frame, tools_of};
+use crate::path::{PathError, fault_at};
 use crate::text::source::SourceFile;
 
 /// The motions to poses.

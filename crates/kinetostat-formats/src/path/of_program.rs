@@ -3,15 +3,14 @@
 use kinetostat_program::{Move, Path, Warning};
 use nalgebra::{Isometry3, UnitQuaternion};
 
-use crate::model::frame::FrameUse;
-use crate::model::motion::{Motion, Runs};
+use crate::model::motion::{FrameUse, Motion, Runs};
 use crate::model::program::{AxesStated, RobotProgram};
 use crate::path::axis_turns::{first_leaning, first_leaning_in_base};
-use crate::path::fault::{PathError, fault_at};
 use crate::path::maker::{Maker, PathOptions};
 use crate::path::motion_faults::{faults_of_motions, has_one_work_object, motions_to_poses};
 use crate::path::path_warnings::{by_rule, turns_alone, warnings_of};
 use crate::path::tools::{changes, same_frame, tools_of};
+use crate::path::{PathError, fault_at};
 
 /// The path of a robot's program, and in which axes it is.
 ///

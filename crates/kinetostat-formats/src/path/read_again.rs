@@ -3,10 +3,9 @@
 use kinetostat_program::{
     Corrected, Knowledge, Move, Piece, Verification, WriteError, WriteOptions, irregular,
 };
-
 use nalgebra::UnitQuaternion;
 
-use crate::path::fault::broken;
+use crate::path::broken;
 use crate::path::kept_lines::{ReadProgram, kept_lines, lines};
 use crate::path::of_program::RobotPath;
 

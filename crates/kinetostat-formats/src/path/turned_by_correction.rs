@@ -13,7 +13,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::RobotProgram;
 use crate::model::site::{TurnsOtherwise, not_evenly};
-use crate::path::fault::broken;
+use crate::path::broken;
 use crate::path::of_program::RobotPath;
 use crate::text::number::in_words;
 use crate::writing::divided::SAME_RAD;

@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use crate::poses::cells::{PARQUET_ROW, cells_of, number_of, separator_of};
+use crate::poses::columns::TABLE_HELP;
 use crate::poses::layout::{Named, layout_of};
 use crate::poses::row::{PART, RowContext, Rows, row_of};
-use crate::poses::table::TABLE_HELP;
 use crate::text::source::{SourceFile, beginning};
 
 const QUOTE: (&str, &str) = (
@@ -134,6 +134,8 @@ pub(crate) fn lines_of(bytes: &[u8], from: usize) -> impl Iterator<Item = Range<
         None
     })
 }
+
+// Tables with decimal commas, as spreadsheets in German or French write them: semicolons or tabs between cells.
 
 /// The table with points in place of its decimal commas, byte for byte in the same places; none where it has no such commas, or points
 /// too.

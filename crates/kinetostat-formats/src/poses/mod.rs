@@ -1,8 +1,8 @@
 //! Lists of poses and of joint values as tables (CSV) and as YAML.
 //!
-//! [`cells`] finds the cells of a line, [`tree`] the nodes of YAML. What a name means, [`columns`] says, and [`layout`] what all names of a row mean together; [`row`] reads
-//! the row, [`joints`] finds the poses of joint values, [`csv`] reads commas as points. [`row`] also decides what a
-//! length is: a wrong factor of 1000 is the worst fault of such a list. What each name is taken for stands in [`table`].
+//! [`cells`] finds the cells of a line, [`tree`] the nodes of YAML. What a name means and what it is taken for, [`columns`] says, and
+//! [`layout`] what all names of a row mean together; [`joints`] finds the poses of joint values, [`csv`] reads commas as points. [`row`]
+//! reads the row and decides what a length is: a wrong factor of 1000 is the worst fault of such a list.
 //!
 //! Source: RFC 4180 (CSV), YAML 1.2.2, ROS `geometry_msgs/Pose` with REP 103 (metres, quaternions).
 
@@ -16,6 +16,5 @@ pub(crate) mod layout;
 pub(crate) mod parquet;
 pub(crate) mod reader;
 pub(crate) mod row;
-pub(crate) mod table;
 pub(crate) mod tree;
 pub(crate) mod yaml;

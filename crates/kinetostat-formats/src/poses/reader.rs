@@ -3,9 +3,8 @@
 use nalgebra::Vector3;
 
 use crate::error::{ProgramError, note};
-use crate::model::frame::FrameUse;
-use crate::model::language::Language;
-use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
+use crate::model::Language;
+use crate::model::motion::{FrameUse, Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
 use crate::model::site::{MotionSite, PoseText, SpeedSite, TargetSite};

@@ -18,7 +18,7 @@ use crate::rapid::lex::{code_of, tokens_of};
 use crate::rapid::reader::{expand_rapid, parse_rapid};
 use crate::rapid::table::{MODES, MotionRow, RAPID_STATEMENTS, motion_row};
 use crate::table::StatementRow;
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::number::Width;
 use crate::text::source::{Edits, FlatText, SourceFile};
 use crate::writing::motions::write_with;

@@ -10,14 +10,13 @@ use crate::interpreter::evaluate::{LiteralsOnly, evaluate};
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::DatumNode;
 use crate::interpreter::value::{Datum, Literal};
-use crate::model::frame::ToolLoad;
+use crate::model::motion::ToolLoad;
 use crate::model::orientation::OrientationText;
 use crate::model::site::PoseText;
 use crate::model::target::{Configuration, PoseTarget};
-use crate::rapid::expression::expression_of;
-use crate::rapid::lex::tokens_of;
+use crate::rapid::lex::{expression_of, tokens_of};
 use crate::rapid::parser::modules::modules_of;
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::number::{NumberText, Width};
 use crate::text::source::SourceFile;
 

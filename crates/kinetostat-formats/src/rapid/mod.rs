@@ -1,12 +1,11 @@
 //! ABB RAPID: modules read together, and what the writer must know of the language.
 //!
-//! From tokens ([`lex`]) to blocks ([`parser`]), and to a run ([`state`], [`dialect`]): expressions ([`expression`], [`functions`],
+//! From tokens and expressions ([`lex`]) to blocks ([`parser`]), and to a run ([`state`], [`dialect`]): values ([`functions`],
 //! [`literals`]) and motions ([`instructions`], [`motion`], [`targets`]). [`language`] writes.
 //!
 //! Source: ABB, Technical reference manual - RAPID kernel, and - RAPID Instructions, Functions and Data types (3HAC050917).
 
 mod dialect;
-pub(crate) mod expression;
 mod functions;
 mod instructions;
 pub(crate) mod language;

@@ -10,7 +10,7 @@ use crate::model::site::{OffsetAxes, PartText, PoseText, ReplacedText, TargetSit
 use crate::model::target::PoseTarget;
 use crate::rapid::literals::{numbers_in, pose_of, text_of};
 use crate::rapid::state::Run;
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::number::NumberText;
 
 /// An end that is known.

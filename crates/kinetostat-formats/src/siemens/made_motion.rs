@@ -4,8 +4,7 @@ use std::ops::Range;
 
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 
-use crate::model::frame::FrameUse;
-use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
+use crate::model::motion::{FrameUse, Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::orientation::OrientationText;
 use crate::model::site::{MotionSite, PoseText, SpeedSite, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};

@@ -6,10 +6,9 @@ use std::ops::Range;
 use nalgebra::Isometry3;
 
 use crate::error::ProgramError;
-use crate::model::language::Language;
-use crate::model::outside_call::OutsideCall;
+use crate::model::Language;
 use crate::model::parsed::{Parsed, stays_as_written};
-use crate::model::program::RobotProgram;
+use crate::model::program::{OutsideCall, RobotProgram};
 use crate::model::stated_value::{SLASHED, SlashBlocks, told_of_values};
 use crate::options::ReadOptions;
 use crate::siemens::block::{Block, Item, What};

@@ -138,6 +138,8 @@ impl Reader<'_> {
     }
 }
 
+// Angles of modulo axes without AC or DC, which a setting of the machine takes one way or the other.
+//
 // Source: Siemens, SINUMERIK 840D sl, machine data lists, MD30455 $MA_MISC_FUNCTION_MASK: with bit 2 a modulo rotary axis that is programmed
 // under G90 goes to its angle as with DC; without it, as with AC.
 
@@ -185,6 +187,8 @@ pub(crate) fn finding_of(file: usize, turns: &[PlainTurn]) -> Option<Finding> {
         ),
     })
 }
+
+// Axes beside X, Y and Z: they may stand, and not move; those that turn stand at zero alone.
 
 /// Letters of axes beside X, Y and Z.
 pub(crate) const OTHER_AXES: &[u8] = b"ABCUVWQE";

@@ -125,6 +125,8 @@ impl SourceFile {
     }
 }
 
+// Replaced and inserted ranges of a file; what lies between comes back byte for byte.
+
 /// Replacements in one text. An empty range inserts.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Edits(Vec<(Range<usize>, Vec<u8>)>);

@@ -10,7 +10,7 @@ use crate::interpreter::reading::Grammar;
 use crate::interpreter::tree::RoutineKind;
 use crate::interpreter::value::Datum;
 use crate::model::orientation::OrientationText;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Members of a pose, in the order in which `p[x,y,z,rx,ry,rz]` has them.
 pub(super) const MEMBERS: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];

@@ -10,7 +10,7 @@ use crate::interpreter::token::{Kind, TokenFile};
 use crate::interpreter::tree::{Choice, Counting, DatumNode, Flow, Leave, Statement};
 use crate::interpreter::value::{Datum, Step, Value};
 use crate::table::Treatment;
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::val3::expression::{self, PARTS};
 use crate::val3::frames::{Run, Val3, numbers_of, own_trsf, single, trsf_of};
 use crate::val3::instructions::{CHANGE_THEIRS, is_motion, is_one_of, row};

@@ -6,7 +6,7 @@ use crate::interpreter::expression::{Expression, Node, Operator};
 use crate::interpreter::lexing::{equals, number};
 use crate::interpreter::reading::{self, Grammar};
 use crate::interpreter::token::{Kind, Token, TokenFile};
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Source: Staubli, VAL3 Reference Manual, Operators.
 pub(super) const GRAMMAR: Grammar = Grammar {

@@ -13,10 +13,10 @@ use crate::interpreter::run::{Reason, Root};
 use crate::interpreter::symbols::Symbols;
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::value::{Datum, Step, Value};
-use crate::model::frame::{Frame, FrameUse};
+use crate::model::motion::{Frame, FrameUse};
 use crate::model::orientation::OrientationText;
 use crate::options::ReadOptions;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Limit of the ancestors of a frame.
 const DEEPEST: usize = 12;

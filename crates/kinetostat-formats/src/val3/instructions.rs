@@ -9,7 +9,7 @@ use crate::interpreter::token::Kind;
 use crate::interpreter::tree::Flow;
 use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{Alike, StatementRow, Treatment, alike, count, row_of, rows, sorted};
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::val3::expression::expression_of;
 use crate::val3::frames::{Run, Val3};
 

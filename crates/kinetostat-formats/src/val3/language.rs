@@ -140,6 +140,8 @@ impl ProgramLanguage for Val3Language {
     }
 }
 
+// Adapter of the writer for VAL3: a point without numbers of its own is moved by `appro`.
+
 /// VAL3.
 pub(crate) struct Val3Syntax;
 

@@ -10,7 +10,7 @@ use roxmltree::{Attribute, Document, Node};
 use crate::error::ProgramError;
 use crate::interpreter::token::{Kind, Token, TokenFile};
 use crate::interpreter::tree::{Change, DatumNode, Parameter, Sight};
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::source::SourceFile;
 use crate::val3::expression::{add_tokens, has_values};
 

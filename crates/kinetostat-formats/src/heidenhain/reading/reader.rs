@@ -8,7 +8,7 @@ use crate::heidenhain::blocks::{Block, OtherEnd, blocks_of, other_end};
 use crate::heidenhain::flow::{NAME_IT, Step, label_twice, labels_of, order, step_of};
 use crate::heidenhain::reading::walker::{EXPAND, Found, Reader, has_corners};
 use crate::heidenhain::state::State;
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::parsed::Parsed;
 use crate::model::program::{RobotProgram, StatedAxes};
 use crate::options::ReadOptions;

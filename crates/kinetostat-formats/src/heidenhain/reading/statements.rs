@@ -10,11 +10,11 @@ use crate::heidenhain::reading::ways::Acts;
 use crate::heidenhain::state::Aside;
 use crate::heidenhain::table::{Function, function, row};
 use crate::heidenhain::words::{EXPONENT, Value, Word, exponent};
-use crate::model::outside_call::OutsideCall;
+use crate::model::program::OutsideCall;
 use crate::model::stated_value::{SLASHED, SlashBlocks};
 use crate::options::CutterCompensation;
 use crate::table::Treatment;
-use crate::text::name::Name;
+use crate::text::Name;
 
 impl Reader<'_> {
     /// Follows a block; whether the program ends behind it.

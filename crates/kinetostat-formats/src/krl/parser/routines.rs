@@ -7,7 +7,7 @@ use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::{Change, DatumNode, Parameter, Preset, Routine, RoutineKind, Sight};
 use crate::krl::expression::literal_index;
 use crate::krl::lex::assignment;
-use crate::krl::parser::cursor::{Content, Parser};
+use crate::krl::parser::blocks::{Content, Parser};
 
 /// Types that need no DECL.
 const TYPES: [&str; 11] = [

@@ -16,7 +16,7 @@ use crate::model::program::RobotProgram;
 use crate::model::site::{PartialText, PoseText, TargetSite};
 use crate::model::target::PoseTarget;
 use crate::options::{ExternalAxes, ReadOptions, UnknownTargets};
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::source::{Edits, SourceFile};
 use crate::writing::piece::Piece;
 

@@ -4,7 +4,7 @@ use crate::error::ProgramError;
 use crate::interpreter::token::{Kind, TokenFile};
 use crate::interpreter::tree::{Change, DatumNode, Module, Parameter, Routine, RoutineKind, Sight};
 use crate::rapid::parser::cursor::Parser;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// The modules of a file.
 pub(crate) fn modules_of(file: &TokenFile<'_>, faults: &mut Vec<ProgramError>) -> Vec<Module> {
