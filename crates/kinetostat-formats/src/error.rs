@@ -69,9 +69,7 @@ impl ProgramError {
         let reason = || format!("the file is larger than {} MiB", most_bytes >> 20);
         (file.bytes().len() > most_bytes).then(|| Self::at(file, 0..0, reason(), "divide it"))
     }
-}
 
-impl ProgramError {
     /// Error at a place of an expanded program, reported at its line of the source files.
     pub(crate) fn of_flat(
         flat: &FlatText,
@@ -86,9 +84,7 @@ impl ProgramError {
         let source = files.get(from).unwrap_or(&flat.file);
         Self::at(source, source.range_of(line), reason, remedy)
     }
-}
 
-impl ProgramError {
     /// Shows, of a fault of a program that was written flat, the line of the file that its block came from, where the words that are meant
     /// do not stand there as they are; `origins` are those of the flat program.
     ///
@@ -116,9 +112,7 @@ impl ProgramError {
             self.found = own;
         }
     }
-}
 
-impl ProgramError {
     /// Converts an error of an expanded program to its line of the source files.
     pub(crate) fn at_source(mut self, origins: &[(usize, usize)], files: &[SourceFile]) -> Self {
         self.show_source(origins, files);

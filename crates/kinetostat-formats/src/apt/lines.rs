@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::text::number::NumberText;
-use crate::text::source::beginning;
+use crate::text::source::{beginning, next_line};
 
 /// A statement.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,11 +88,6 @@ pub(crate) fn statements_of(bytes: &[u8]) -> Vec<Statement> {
         });
     }
     statements
-}
-
-fn next_line(bytes: &[u8], at: usize) -> usize {
-    let end = bytes[at..].iter().position(|byte| *byte == b'\n');
-    end.map_or(bytes.len(), |end| at + end + 1)
 }
 
 /// `TOOL PATH` is one word.

@@ -65,9 +65,7 @@ impl Fields {
         let at = |place: usize| self.axes[axis].places[place / stride % counts[axis]];
         (0..self.len()).map(at).collect()
     }
-}
 
-impl Fields {
     /// Writes a NetCDF-3 file with offsets of 64 bits: dimensions z, y, x, a variable for each axis and column.
     ///
     /// # Errors

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::error::ProgramError;
 use crate::heidenhain::words::{Word, words_of};
-use crate::text::source::{Edits, SourceFile, beginning};
+use crate::text::source::{Edits, SourceFile, beginning, next_line};
 
 /// Reason for the refusal of a continuation line of a cycle.
 pub(crate) const STRAY: &str =
@@ -64,11 +64,6 @@ pub(crate) fn blocks_of(bytes: &[u8]) -> Vec<Block> {
         blocks.push(block(bytes, first..at));
     }
     blocks
-}
-
-fn next_line(bytes: &[u8], at: usize) -> usize {
-    let end = bytes[at..].iter().position(|byte| *byte == b'\n');
-    end.map_or(bytes.len(), |end| at + end + 1)
 }
 
 fn block(bytes: &[u8], lines: Range<usize>) -> Block {

@@ -4,13 +4,12 @@
 
 use std::ops::Range;
 
-use winnow::ascii::{digit0, digit1};
-use winnow::combinator::{alt, opt};
+use winnow::combinator::alt;
 use winnow::prelude::*;
 use winnow::stream::LocatingSlice;
 use winnow::token::{any, one_of, take_till, take_while};
 
-use crate::interpreter::token::{Kind, Line, Token, TokenFile};
+use crate::interpreter::token::{Kind, Line, Token, TokenFile, number_literal};
 use crate::model::motion::FrameUse;
 use crate::text::source::{SourceFile, beginning};
 
@@ -101,7 +100,7 @@ fn token(input: &mut Input<'_>) -> Result<Option<Kind>, Nothing> {
     let first = *input.first().ok_or(winnow::error::EmptyError)?;
     match first {
         b' ' | b'\t' | b'\r' | 0x0b | 0x0c | 0x1a => any.value(None).parse_next(input),
-        b'0'..=b'9' | b'.' => alt((number.value(Kind::Number), symbol))
+        b'0'..=b'9' | b'.' => alt((number_literal.value(Kind::Number), symbol))
             .map(Some)
             .parse_next(input),
         b'"' => alt((text.value(Kind::Text), symbol))
@@ -128,12 +127,6 @@ fn is_letter(byte: u8) -> bool {
 
 fn is_part(byte: u8) -> bool {
     is_letter(byte) || byte.is_ascii_digit()
-}
-
-fn number(input: &mut Input<'_>) -> Result<(), Nothing> {
-    let mantissa = alt(((digit1, opt((b'.', digit0))).void(), (b'.', digit1).void()));
-    let exponent = (one_of([b'e', b'E']), opt(one_of([b'+', b'-'])), digit1);
-    (mantissa, opt(exponent)).void().parse_next(input)
 }
 
 fn text(input: &mut Input<'_>) -> Result<(), Nothing> {

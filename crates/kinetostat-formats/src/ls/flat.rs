@@ -9,7 +9,7 @@ use crate::error::ProgramError;
 use crate::flat_run::{Written, not_flat};
 use crate::interpreter::value::{Datum, Value};
 use crate::ls::expression::indices_of;
-use crate::ls::lines::{Kind, Layout, index_of, next_line, words_of};
+use crate::ls::lines::{Kind, Layout, index_of, words_of};
 use crate::ls::positions::Positions;
 use crate::ls::reader::{parse_ls, with_run};
 use crate::ls::run::{FlatLines, Run};
@@ -18,7 +18,7 @@ use crate::ls::write::numbered;
 use crate::model::motion::Motion;
 use crate::options::ReadOptions;
 use crate::text::Name;
-use crate::text::source::{Edits, FlatText, SourceFile};
+use crate::text::source::{Edits, FlatText, SourceFile, next_line};
 
 impl Run<'_, '_> {
     /// Writes a line that ran, without the condition on which it ran.

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::text::number::NumberText;
-use crate::text::source::beginning;
+use crate::text::source::{beginning, next_line};
 
 /// Error of a line: position, reason, remedy.
 pub(crate) type Fault = (Range<usize>, &'static str, &'static str);
@@ -198,12 +198,6 @@ fn prefix(line: &[u8]) -> Option<(Range<usize>, usize)> {
         .take_while(|byte| byte.is_ascii_digit())
         .count();
     (line.get(from + digits) == Some(&b':')).then_some((from..from + digits, from + digits + 1))
-}
-
-/// Start of the line after that of a byte.
-pub(crate) fn next_line(bytes: &[u8], at: usize) -> usize {
-    let end = bytes[at..].iter().position(|byte| *byte == b'\n');
-    end.map_or(bytes.len(), |end| at + end + 1)
 }
 
 /// The value of digits.

@@ -10,7 +10,7 @@ use crate::model::Language;
 use crate::model::motion::Motion;
 use crate::model::program::{ENDLESS, RobotProgram};
 use crate::rapid::lex::code_of;
-use crate::text::source::SourceFile;
+use crate::text::source::{SourceFile, in_one_line};
 
 /// The events of all motions of a file.
 pub(crate) fn events_of_motions(program: &RobotProgram, file: usize) -> Vec<SourceEvent> {
@@ -69,7 +69,7 @@ fn events_of_motion(
     let mut events = Vec::new();
     if language.has_several_statements_a_line() && free.start <= begin {
         // Statements between two motions of a line belong after the first.
-        let text = words(source.part(&(begin..motion.span.start.max(begin))));
+        let text = in_one_line(source.part(&(begin..motion.span.start.max(begin))));
         events.extend(of_line(language, motion.line, &text));
     }
     if language == Language::Rapid {
@@ -107,7 +107,7 @@ pub(crate) fn done_in_motion(
         Language::Rapid => of_rapid(source, motion),
         Language::FanucLs => {
             let event = event_of(source.bytes(), &motion.span);
-            let text = event.map(|span| words(source.part(&span)));
+            let text = event.map(|span| in_one_line(source.part(&span)));
             text.map(|text| (text.trim_end_matches(';').trim_end().to_owned(), true))
         }
         _ => None,
@@ -123,7 +123,7 @@ fn behind(
 ) -> impl Iterator<Item = SourceEvent> {
     let last = source.line_of(motion.span.end.saturating_sub(1));
     let end = source.range_of(last).end.min(next);
-    let text = words(source.part(&(motion.span.end.min(end)..end)));
+    let text = in_one_line(source.part(&(motion.span.end.min(end)..end)));
     let is_comment = |sign| text.starts_with(sign);
     let is_said = language.has_several_statements_a_line()
         || language.comment_behind_statement().is_some_and(is_comment);
@@ -151,7 +151,7 @@ fn comments_inside(source: &SourceFile, motion: &Motion) -> Vec<(usize, String)>
 
 /// Action of a RAPID motion instruction beside its motion, and true if it acts after the motion.
 fn of_rapid(source: &SourceFile, motion: &Motion) -> Option<(String, bool)> {
-    let keyword = words(source.part(&motion.site.keyword));
+    let keyword = in_one_line(source.part(&motion.site.keyword));
     let upper = keyword.to_ascii_uppercase();
     let is_circle = upper.starts_with("MOVEC") || upper == "TRIGGC";
     let from = match upper.as_str() {
@@ -167,7 +167,7 @@ fn of_rapid(source: &SourceFile, motion: &Motion) -> Option<(String, bool)> {
     let statement = source.part(&(motion.site.keyword.end..motion.span.end));
     let statement = String::from_utf8_lossy(statement).into_owned();
     let code: Vec<&str> = statement.lines().map(code_of).collect();
-    let statement = words(code.join(" ").as_bytes());
+    let statement = in_one_line(code.join(" ").as_bytes());
     let arguments = arguments_of(statement.trim_end_matches(';'));
     let to = match upper.starts_with("TRIGG") {
         // Zone and tool follow.
@@ -207,12 +207,6 @@ fn arguments_of(text: &str) -> Vec<String> {
         .iter()
         .map(|argument| argument.trim().to_owned())
         .collect()
-}
-
-/// A part of a file in one line.
-fn words(bytes: &[u8]) -> String {
-    let text = String::from_utf8_lossy(bytes);
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// Words of RAPID with which a statement on the same line may run on a condition, again, or not at all.

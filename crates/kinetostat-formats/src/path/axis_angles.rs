@@ -11,8 +11,8 @@ use nalgebra::Vector3;
 
 use crate::model::motion::Motion;
 use crate::model::program::{AxesStated, RobotProgram};
-use crate::path::PathError;
 use crate::path::axis_turns::{OVER, axis_of};
+use crate::path::{PathError, fault_at};
 
 /// Motion of the rotary axes in one motion of the program.
 #[derive(Debug, Clone, PartialEq)]
@@ -169,15 +169,6 @@ fn fault(
         }
     };
     fault_at(program, motion, reason, remedy)
-}
-
-fn fault_at(program: &RobotProgram, motion: &Motion, reason: String, remedy: &str) -> PathError {
-    PathError {
-        file: program.files[motion.file].name().to_owned(),
-        line: motion.line,
-        reason,
-        remedy: remedy.to_owned(),
-    }
 }
 
 /// Interpolation of the axes between stated angles, and the reason why it is not the required great circle.

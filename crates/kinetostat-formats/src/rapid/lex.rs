@@ -4,15 +4,14 @@
 
 use std::ops::Range;
 
-use winnow::ascii::{digit0, digit1};
 use winnow::combinator::{alt, opt};
 use winnow::prelude::*;
 use winnow::stream::LocatingSlice;
-use winnow::token::{any, one_of, take_till, take_while};
+use winnow::token::{any, take_till, take_while};
 
 use crate::interpreter::expression::{Argument, Expression, Operator};
 use crate::interpreter::reading::{self, Grammar};
-use crate::interpreter::token::{Kind, Token, TokenFile};
+use crate::interpreter::token::{Kind, Token, TokenFile, number_literal};
 use crate::text::Name;
 use crate::text::source::BYTE_ORDER_MARK;
 
@@ -61,7 +60,7 @@ fn token(input: &mut Input<'_>) -> Result<Option<Kind>, Nothing> {
     match first {
         b' ' | b'\t' | b'\r' | b'\n' | 0x0b | 0x0c | END_OF_FILE => blank(input).map(|()| None),
         b'!' => take_till(0.., b'\n').value(None).parse_next(input),
-        b'0'..=b'9' | b'.' => alt((number.value(Kind::Number), symbol))
+        b'0'..=b'9' | b'.' => alt((number_literal.value(Kind::Number), symbol))
             .map(Some)
             .parse_next(input),
         // Each module has its own header where the files of a program are read as one.
@@ -96,12 +95,6 @@ fn is_letter(byte: u8) -> bool {
 
 fn is_part(byte: u8) -> bool {
     is_letter(byte) || byte.is_ascii_digit()
-}
-
-fn number(input: &mut Input<'_>) -> Result<(), Nothing> {
-    let mantissa = alt(((digit1, opt((b'.', digit0))).void(), (b'.', digit1).void()));
-    let exponent = (one_of([b'e', b'E']), opt(one_of([b'+', b'-'])), digit1);
-    (mantissa, opt(exponent)).void().parse_next(input)
 }
 
 /// A quote inside is written twice.

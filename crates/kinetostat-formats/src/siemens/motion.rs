@@ -232,9 +232,7 @@ impl Reader<'_> {
             }
         }
     }
-}
 
-impl Reader<'_> {
     /// The arc of a block from a place to another, in the frame's axes.
     ///
     /// # Errors

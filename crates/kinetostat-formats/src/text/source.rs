@@ -17,6 +17,18 @@ pub(crate) fn beginning(bytes: &[u8]) -> usize {
     }
 }
 
+/// Start of the line after that of a byte.
+pub(crate) fn next_line(bytes: &[u8], at: usize) -> usize {
+    let end = bytes[at..].iter().position(|byte| *byte == b'\n');
+    end.map_or(bytes.len(), |end| at + end + 1)
+}
+
+/// The words of a text in one line.
+pub(crate) fn in_one_line(bytes: &[u8]) -> String {
+    let text = String::from_utf8_lossy(bytes);
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 /// A file of a program as it was read; nothing in it is ever changed.
 ///
 /// ```

@@ -172,9 +172,7 @@ impl Reader<'_> {
             _ => {}
         }
     }
-}
 
-impl Reader<'_> {
     /// A path block, or one of functions alone; whether the program ends behind it.
     pub(crate) fn path(&mut self, block: &Block, words: &[Word], span: &Range<usize>) -> bool {
         // Blocks of functions alone have no word before.

@@ -107,9 +107,7 @@ impl Writer<'_> {
         own.append(edits);
         Ok(())
     }
-}
 
-impl Writer<'_> {
     /// A piece as a block: an arc, or straight.
     fn as_block(
         &mut self,

@@ -87,9 +87,7 @@ impl Writer<'_> {
         }
         self.off = way.datum.preset(&off) - way.datum.shift_mm;
     }
-}
 
-impl Writer<'_> {
     /// The feed of a piece, where it is not the one in force.
     pub(crate) fn write_feed(&mut self, way: &Way, words: &[Word], factor: f64, edits: &mut Edits) {
         let stated = Stated::of(words).feed;

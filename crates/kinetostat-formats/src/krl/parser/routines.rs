@@ -173,9 +173,7 @@ impl Parser<'_, '_> {
             self.close();
         }
     }
-}
 
-impl Parser<'_, '_> {
     /// `[GLOBAL] [DECL] [CONST] type name[3]=value, name`.
     pub(super) fn declaration(&mut self, tokens: &Range<usize>) {
         let mut at = tokens.start;

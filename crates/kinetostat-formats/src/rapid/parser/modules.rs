@@ -188,9 +188,7 @@ impl Parser<'_, '_> {
             statements: statements.unwrap_or(start..start),
         })
     }
-}
 
-impl Parser<'_, '_> {
     /// Parses a declaration: `None` if none begins here, `Some(None)` if it is faulty, which is noted.
     pub(super) fn datum(&mut self, start: usize, sight: Sight) -> Option<Option<DatumNode>> {
         self.takes("TASK");

@@ -195,9 +195,7 @@ impl Writer<'_> {
         // A feed that is not known cannot be another one.
         let _ = self.feed(1.0);
     }
-}
 
-impl Writer<'_> {
     pub(crate) fn pieces(&mut self, pieces: &[&Piece]) -> Result<(), Reason> {
         let [first, further @ ..] = pieces else {
             return Ok(());
