@@ -144,9 +144,7 @@ pub(crate) fn numbered_again(bytes: &[u8]) -> Option<Vec<u8>> {
 /// True if the first block has a number: then all blocks have one.
 pub(crate) fn is_numbered(bytes: &[u8]) -> bool {
     let mut blocks = blocks_of(bytes).into_iter();
-    let begins = |words: &[crate::heidenhain::words::Word]| {
-        words.first().is_some_and(|word| word.is("BEGIN"))
-    };
+    let begins = |words: &[Word]| words.first().is_some_and(|word| word.is("BEGIN"));
     blocks.any(|block| block.number.is_some() && begins(&block.words(bytes)))
 }
 

@@ -31,7 +31,7 @@ pub(crate) struct Reader<'r> {
     pub unit_mm: f64,
     pub state: State,
     pub pole_from: Option<usize>,
-    /// See [`crate::heidenhain::reading::walker::PoleThere`].
+    /// See [`PoleThere`].
     pub poles: [usize; 2],
     /// The file may hold rounded corners; the straight block just before; a corner that waits for its second line.
     pub has_corners: bool,
