@@ -4,8 +4,7 @@ use std::ops::Range;
 
 use thiserror::Error;
 
-use crate::text::flat::FlatText;
-use crate::text::source::SourceFile;
+use crate::text::source::{FlatText, SourceFile};
 
 /// Refused text of a program: position, text, reason, remedy.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -52,8 +51,10 @@ impl ProgramError {
 
     /// Two programs that a call names alike, each with its file and its first block.
     pub(crate) fn named_alike(
-        (file, begin): (&SourceFile, Range<usize>),
-        (other, other_begin): (&SourceFile, Range<usize>),
+        file: &SourceFile,
+        begin: Range<usize>,
+        other: &SourceFile,
+        other_begin: Range<usize>,
     ) -> Self {
         let reason = format!(
             "a call cannot tell this program from that of the same name in {}, line {}",
@@ -68,15 +69,14 @@ impl ProgramError {
         let reason = || format!("the file is larger than {} MiB", most_bytes >> 20);
         (file.bytes().len() > most_bytes).then(|| Self::at(file, 0..0, reason(), "divide it"))
     }
-}
 
-impl ProgramError {
     /// Error at a place of an expanded program, reported at its line of the source files.
     pub(crate) fn of_flat(
         flat: &FlatText,
         files: &[SourceFile],
         at: usize,
-        (reason, remedy): (String, &str),
+        reason: impl Into<String>,
+        remedy: &str,
     ) -> Self {
         let line = flat.file.line_of(at);
         let origin = flat.origins.get(line.saturating_sub(1)).copied();
@@ -84,9 +84,7 @@ impl ProgramError {
         let source = files.get(from).unwrap_or(&flat.file);
         Self::at(source, source.range_of(line), reason, remedy)
     }
-}
 
-impl ProgramError {
     /// Shows, of a fault of a program that was written flat, the line of the file that its block came from, where the words that are meant
     /// do not stand there as they are; `origins` are those of the flat program.
     ///
@@ -114,9 +112,7 @@ impl ProgramError {
             self.found = own;
         }
     }
-}
 
-impl ProgramError {
     /// Converts an error of an expanded program to its line of the source files.
     pub(crate) fn at_source(mut self, origins: &[(usize, usize)], files: &[SourceFile]) -> Self {
         self.show_source(origins, files);

@@ -1,6 +1,6 @@
 //! Forms of program files, and their name endings.
 
-use crate::model::language::Language;
+use crate::model::Language;
 
 /// Form of a program file, as its name ending implies it.
 ///

@@ -38,24 +38,19 @@
 //! ```
 
 #[macro_use]
-mod registry;
+mod language;
 
 mod apt;
-mod axis_count;
 mod corner;
 mod document;
 mod error;
 mod extreme;
 pub mod fields;
 mod file_form;
-mod flat_origins;
 mod flat_run;
 mod heidenhain;
-#[doc(hidden)]
-pub mod internal;
 mod interpreter;
 mod krl;
-mod language;
 mod ls;
 mod making;
 mod model;
@@ -64,7 +59,6 @@ mod path;
 mod poses;
 mod program_language;
 mod rapid;
-mod refused_run;
 mod siemens;
 mod standing;
 mod table;
@@ -83,62 +77,65 @@ pub use file_form::FileForm;
 pub use heidenhain::expand::flat::expand_heidenhain;
 pub use heidenhain::reading::reader::read_heidenhain;
 pub use heidenhain::table::HEIDENHAIN_STATEMENTS;
+pub use krl::frames::{KRL_CONFIG, krl_frames_of_config, krl_needs_config};
 pub use krl::reader::read_krl;
-pub use krl::system_frames::{KRL_CONFIG, krl_frames_of_config, krl_needs_config};
 pub use krl::table::KRL_STATEMENTS;
 pub use language::{language_of, odd_program};
 pub use ls::reader::read_ls;
 pub use ls::table::LS_STATEMENTS;
-pub use making::action::{Coolant, EventAction};
-pub use making::block_words::{BlockWord, each_block};
 pub use making::compare::Kept;
-pub use making::event_kind::EventKind;
-pub use making::events::SourceEvent;
-pub use making::fault::{MakeError, MakeFinding};
+pub use making::events::{Coolant, EventAction, EventKind, SourceEvent};
 pub use making::gcode_events::events_of_gcode;
 pub use making::joint_table::{JointStart, JointTable, JointTableError, joint_table};
 pub use making::limits::MakeLanguage;
 pub use making::make::{Made, make};
 pub use making::of_robot::{base_of_robot, make_of_flat_robot, make_of_robot};
 pub use making::robot_events::{events_of_robot, spindle_of_blocks};
-pub use making::run_statements::{RunStatement, mode_of, options_of_motion, statements_of_run};
+pub use making::run_statements::{
+    BlockWord, RunStatement, each_block, mode_of, options_of_motion, statements_of_run,
+};
 pub use making::template::{
     PlacesUnknown, Rapids, SpindleStatements, StatedFrame, StatedTool, Template, Zones,
 };
-pub use model::frame::{Frame, FrameUse};
-pub use model::joint_arm::{BetweenRows, JointArm, TableArm};
-pub use model::language::Language;
-pub use model::motion::{Motion, MotionKind, Runs, Speed, Zone};
+pub use making::{MakeError, MakeFinding};
+pub use model::Language;
+pub use model::motion::{Frame, FrameUse, Motion, MotionKind, Runs, Speed, Zone};
 pub use model::orientation::OrientationText;
 pub use model::program::RobotProgram;
-pub use model::slash_blocks::SlashBlocks;
-pub use model::stated_arm::StatedArm;
-pub use model::stated_value::StatedValue;
-pub use model::target::{Configuration, PoseTarget, Target};
+pub use model::site::{BetweenRows, JointArm, TableArm};
+pub use model::stated_value::{SlashBlocks, StatedValue};
+pub use model::target::{Configuration, PoseTarget, StatedArm, Target};
 pub use options::{
     CutterCompensation, ExternalAxes, LengthUnit, ReadOptions, UnknownTargets, WriteOptions,
 };
-pub use path::all_faults::{ProgramFault, all_faults};
+pub use path::PathError;
 pub use path::axis_turns::TurnAboutAxis;
 pub use path::correctable::Correctable;
-pub use path::fault::PathError;
+pub use path::maker::PathOptions;
+pub use path::motion_faults::{ProgramFault, all_faults};
 pub use path::of_program::{RobotPath, path_of};
-pub use path::options::PathOptions;
 pub use path::tools::tool_number;
+pub use poses::columns::POSES_STATEMENTS;
 #[cfg(feature = "parquet")]
 pub use poses::parquet::text::{ParquetFile, parquet_of_table, table_of_parquet};
 pub use poses::reader::read_poses;
-pub use poses::table::POSES_STATEMENTS;
 pub use rapid::reader::read_rapid;
 pub use rapid::table::RAPID_STATEMENTS;
 pub use siemens::flat::expand_siemens;
 pub use siemens::reader::read_siemens;
 pub use siemens::table::SIEMENS_STATEMENTS;
 pub use table::{StatementRow, Treatment};
-pub use text::finding::Finding;
-pub use text::flat::FlatText;
-pub use text::source::SourceFile;
-pub use urscript::table::URSCRIPT_STATEMENTS;
+pub use text::source::{Finding, FlatText, SourceFile};
+pub use urscript::motion::URSCRIPT_STATEMENTS;
+pub use val3::instructions::VAL3_STATEMENTS;
 pub use val3::reader::read_val3;
-pub use val3::table::VAL3_STATEMENTS;
 pub use writing::piece::Piece;
+
+/// For the tests of this crate alone: what all languages share and no public function shows by itself.
+#[doc(hidden)]
+pub mod internal {
+    pub use crate::heidenhain::expand::flat::expand_within as expand_heidenhain_within;
+    pub use crate::model::orientation::OrientationText;
+    pub use crate::siemens::flat::expand_within as expand_siemens_within;
+    pub use crate::text::number::{Width, printed};
+}

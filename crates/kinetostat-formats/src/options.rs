@@ -4,9 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::Isometry3;
 
-use crate::model::joint_arm::TableArm;
-use crate::model::slash_blocks::SlashBlocks;
-use crate::model::stated_value::StatedValue;
+use crate::model::site::TableArm;
+use crate::model::stated_value::{SlashBlocks, StatedValue};
 
 /// Treatment of a motion with an unknown end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

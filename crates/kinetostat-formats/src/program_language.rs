@@ -5,17 +5,15 @@ use nalgebra::Vector3;
 
 use crate::error::{ProgramError, WriteError};
 use crate::file_form::FileForm;
+use crate::flat_run::RefusedRun;
 use crate::model::motion::Motion;
 use crate::model::orientation::OrientationText;
 use crate::model::parsed::Parsed;
 use crate::model::program::{ACCELERATION, RobotProgram};
-use crate::model::stated_arm::StatedArm;
-use crate::model::target::Configuration;
+use crate::model::target::{Configuration, StatedArm};
 use crate::options::{ReadOptions, WriteOptions};
-use crate::refused_run::RefusedRun;
 use crate::table::StatementRow;
-use crate::text::flat::FlatText;
-use crate::text::source::SourceFile;
+use crate::text::source::{FlatText, SourceFile};
 use crate::writing::piece::Piece;
 
 /// A file of a program that a language writes: its name and its bytes.

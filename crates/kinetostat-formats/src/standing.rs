@@ -4,9 +4,10 @@
 //! whole turns. The laws are those of G43.4: with tool centre point control a cut needs all angles; without it X, Y and Z are
 //! places of the slides, and a cut is where the program says only with all axes at zero.
 
-use crate::axis_count::CountShown;
-use crate::model::stated_axes::AxesStated;
-use crate::turned_axis::{AxisFault, AxisTurn, StandingAxis, TipWords, Turning, ZERO_DEG};
+use crate::model::program::AxesStated;
+use crate::turned_axis::{
+    AxisFault, AxisTurn, CountShown, StandingAxis, TipWords, Turning, ZERO_DEG,
+};
 
 /// Modal state of the rotary axes.
 #[derive(Debug, Clone, PartialEq, Default)]

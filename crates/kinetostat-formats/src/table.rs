@@ -4,7 +4,7 @@
 //! (`RESUME` of KRL and `ClearPath` of RAPID leave motions before their ends); what holds it on the path, after which it goes on there,
 //! is carried (`BRAKE` and `HALT`, `StopMove` with `StartMove`, `Stop`, `PAUSE` of TP programs): the tool cuts where it would have cut.
 
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Treatment of a statement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

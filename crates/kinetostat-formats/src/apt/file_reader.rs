@@ -1,22 +1,20 @@
-//! State while a file is read, and the arguments of its statements.
+//! State while a file is read, the arguments of its statements, and the text positions of coordinates.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
-use nalgebra::Vector3;
+use nalgebra::{Isometry3, Vector3};
 
-use crate::apt::dialect::Dialect;
-use crate::apt::lines::Statement;
-use crate::apt::numbers::{all_numbers, arguments_of};
-use crate::apt::places::Frames;
+use crate::apt::lines::{Statement, all_numbers, arguments_of};
 use crate::apt::state::State;
+use crate::apt::table::Dialect;
 use crate::error::ProgramError;
-use crate::model::motion::Motion;
+use crate::model::motion::{Frame, FrameUse, Motion};
 use crate::model::orientation::OrientationText;
+use crate::model::site::PoseText;
 use crate::options::ReadOptions;
-use crate::text::finding::Finding;
-use crate::text::line_words::in_words;
-use crate::text::number::NumberText;
-use crate::text::source::SourceFile;
+use crate::text::number::{NumberText, Width, in_words};
+use crate::text::source::{Finding, SourceFile};
 
 /// Results of all files so far.
 pub(crate) struct Found<'o> {
@@ -118,6 +116,69 @@ impl Reader<'_, '_> {
             None => {
                 self.fault(span, "a place is stated by other than numbers", POINTS);
                 None
+            }
+        }
+    }
+}
+
+/// The numbers of a place; `old` where they do not say the place itself.
+pub(crate) fn pose_text(file: usize, numbers: Vec<NumberText>, old: Option<f64>) -> PoseText {
+    let whole = numbers[0].span.start..numbers[numbers.len() - 1].span.end;
+    let mut numbers = numbers.into_iter();
+    let mut number = || {
+        let mut number = numbers.next().unwrap_or(NumberText {
+            span: 0..0,
+            value: 0.0,
+        });
+        if let Some(old) = old {
+            number.value = old;
+        }
+        number
+    };
+    let position = [number(), number(), number()];
+    let orientation: Vec<NumberText> = numbers.collect();
+    PoseText {
+        file,
+        whole,
+        position,
+        unit_mm: 1.0,
+        convention: match orientation.is_empty() {
+            true => OrientationText::Unstated,
+            false => OrientationText::Axis,
+        },
+        orientation,
+        external: Vec::new(),
+        width: Width::Kept,
+    }
+}
+
+/// The caller's frames by names in capitals.
+pub(crate) type Frames = BTreeMap<String, Isometry3<f64>>;
+
+/// A tool or the part by its name.
+pub(crate) fn frame_use(frames: &Frames, name: &str) -> FrameUse {
+    FrameUse::stated(name, frames.get(&name.to_ascii_uppercase()), "the file")
+}
+
+/// The axes of the places: MSYS in the part's, or the part's.
+pub(crate) fn work_object(frames: &Frames, system: Option<&Isometry3<f64>>) -> FrameUse {
+    let part = frame_use(frames, "PART");
+    match (system, part.known()) {
+        (None, _) => part,
+        (Some(system), Some(part)) => FrameUse {
+            name: "MSYS".to_owned(),
+            frame: Frame::Known(part * system),
+        },
+        // Coordinate systems without a known part are identified by their pose in it.
+        (Some(system), None) if *system == Isometry3::identity() => part,
+        (Some(system), None) => {
+            let (at, turn) = (system.translation.vector, system.rotation.scaled_axis());
+            FrameUse {
+                name: format!(
+                    "MSYS at {:.4} {:.4} {:.4} turned by {:.6} {:.6} {:.6} rad",
+                    at.x, at.y, at.z, turn.x, turn.y, turn.z
+                ),
+                ..part
             }
         }
     }

@@ -3,10 +3,9 @@
 use kinetostat_program::last_digit_mm;
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::apt::arc::Circle;
-use crate::apt::file_reader::{HOLES, LEAVE, POINTS, Reader};
+use crate::apt::file_reader::{HOLES, LEAVE, POINTS, Reader, frame_use, pose_text, work_object};
 use crate::apt::lines::Statement;
-use crate::apt::places::{frame_use, pose_text, work_object};
+use crate::apt::state::Circle;
 use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::orientation::OrientationText;
 use crate::model::site::{MotionSite, TargetSite};
@@ -24,7 +23,7 @@ impl Reader<'_, '_> {
         if self.state.in_cycle {
             let reason =
                 "it is a hole of a cycle: from here the controller drills as the cycle says";
-            self.unknown_with(statement, (reason, HOLES), None);
+            self.unknown_with(statement, reason, HOLES, None);
             return;
         }
         let mut kind = MotionKind::Linear;
@@ -35,13 +34,13 @@ impl Reader<'_, '_> {
             match known.map(|from| circle.angle(&from, &place, digit_mm)) {
                 _ if circle.times => {
                     let reason = "it is a helix of several turns, whose way is not followed";
-                    self.unknown_with(statement, (reason, LEAVE), Some(circle));
+                    self.unknown_with(statement, reason, LEAVE, Some(circle));
                     self.state.place = Some(place);
                     return;
                 }
                 None => {
                     let reason = "where its arc begins is not known";
-                    self.unknown_with(statement, (reason, LEAVE), Some(circle));
+                    self.unknown_with(statement, reason, LEAVE, Some(circle));
                     self.state.place = Some(place);
                     return;
                 }
@@ -135,13 +134,14 @@ impl Reader<'_, '_> {
 
     /// A motion whose end or way is not known: refused, or left as it is written.
     pub fn unknown(&mut self, statement: &Statement, reason: &'static str) {
-        self.unknown_with(statement, (reason, LEAVE), None);
+        self.unknown_with(statement, reason, LEAVE, None);
     }
 
     fn unknown_with(
         &mut self,
         statement: &Statement,
-        (reason, remedy): (&'static str, &'static str),
+        reason: &'static str,
+        remedy: &'static str,
         circle: Option<&Circle>,
     ) {
         if self.program.options.unknown_targets == UnknownTargets::Refused {

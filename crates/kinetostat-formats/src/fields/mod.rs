@@ -3,9 +3,6 @@
 //! It takes coordinates and columns, and gives bytes. Numbers that do not exist are NaN.
 
 mod grid;
-mod netcdf;
-#[cfg(feature = "parquet")]
-mod parquet;
 mod polylines;
 #[cfg(feature = "parquet")]
 mod rows;

@@ -1,9 +1,10 @@
-//! The blocks of a file: a line each, or several where `~` ends one; their numbers.
+//! The blocks of a file: a line each, or several where `~` ends one; their numbers; the name and the unit in the first and the last one.
 
 use std::ops::Range;
 
+use crate::error::ProgramError;
 use crate::heidenhain::words::{Word, words_of};
-use crate::text::source::beginning;
+use crate::text::source::{Edits, SourceFile, beginning, next_line};
 
 /// Reason for the refusal of a continuation line of a cycle.
 pub(crate) const STRAY: &str =
@@ -65,11 +66,6 @@ pub(crate) fn blocks_of(bytes: &[u8]) -> Vec<Block> {
     blocks
 }
 
-fn next_line(bytes: &[u8], at: usize) -> usize {
-    let end = bytes[at..].iter().position(|byte| *byte == b'\n');
-    end.map_or(bytes.len(), |end| at + end + 1)
-}
-
 fn block(bytes: &[u8], lines: Range<usize>) -> Block {
     let blanks = |from: usize| {
         let blanks = bytes[from..lines.end]
@@ -111,4 +107,89 @@ fn block(bytes: &[u8], lines: Range<usize>) -> Block {
         text,
         skipped,
     }
+}
+
+// Block numbers: a control shows and loads blocks that are numbered one after another.
+
+/// A program whose numbered blocks are numbered one after another from its first number. Blanks behind a number give way
+/// where it becomes longer.
+pub(crate) fn numbered_again(bytes: &[u8]) -> Option<Vec<u8>> {
+    let mut edits = Edits::default();
+    let mut last: Option<u64> = None;
+    for block in blocks_of(bytes) {
+        let Some(place) = block.number else {
+            continue;
+        };
+        let digits = &bytes[place.clone()];
+        let Ok(stated) = String::from_utf8_lossy(digits).parse::<u64>() else {
+            continue;
+        };
+        let number = last.map_or(stated, |last| last.saturating_add(1));
+        last = Some(number);
+        if number == stated {
+            continue;
+        }
+        let text = number.to_string();
+        let blanks = bytes[place.end..block.lines.end]
+            .iter()
+            .take_while(|byte| **byte == b' ')
+            .count();
+        let longer = text.len().saturating_sub(digits.len());
+        let taken = longer.min(blanks.saturating_sub(1));
+        edits.replace(place.start..place.end + taken, text);
+    }
+    edits.applied_to(bytes)
+}
+
+/// True if the first block has a number: then all blocks have one.
+pub(crate) fn is_numbered(bytes: &[u8]) -> bool {
+    let mut blocks = blocks_of(bytes).into_iter();
+    let begins = |words: &[Word]| words.first().is_some_and(|word| word.is("BEGIN"));
+    blocks.any(|block| block.number.is_some() && begins(&block.words(bytes)))
+}
+
+/// Name and unit (MM or INCH) of BEGIN PGM and END PGM; empty if missing.
+fn stated(file: &SourceFile, block: &Block) -> [String; 2] {
+    let mut parts = file.part(&block.text).split(|byte| *byte == b';');
+    let text = String::from_utf8_lossy(parts.next().unwrap_or_default()).to_uppercase();
+    let mut words: Vec<&str> = text.split_whitespace().skip(2).collect();
+    let unit = words.pop_if(|word| *word == "MM" || *word == "INCH");
+    [words.join(" "), unit.unwrap_or_default().to_owned()]
+}
+
+/// An END PGM that is that of another program.
+pub(crate) struct OtherEnd {
+    pub fault: ProgramError,
+    /// The unit differs, not only the name.
+    pub has_other_unit: bool,
+}
+
+/// The END PGM of a program that states another name or unit than its BEGIN PGM, if it does.
+///
+/// The control writes both from one name and one unit: HEIDENHAIN, TNC 640, user's manual, Klartext programming, "Creating and
+/// writing programs".
+pub(crate) fn other_end(file: &SourceFile, blocks: &[Block], begin: usize) -> Option<OtherEnd> {
+    let is_end = |block: &&Block| {
+        let words = block.words(file.bytes());
+        words.first().is_some_and(|word| word.is("END"))
+    };
+    let end = blocks.get(begin..)?.iter().find(is_end)?;
+    let (first, last) = (stated(file, &blocks[begin]), stated(file, end));
+    let differs = |part: &usize| {
+        let both = [&first[*part], &last[*part]];
+        first[*part] != last[*part] && both.iter().all(|text| !text.is_empty())
+    };
+    // The unit counts most.
+    let part = [1, 0].into_iter().find(differs)?;
+    let line = file.line_of(blocks[begin].text.start);
+    let reason = format!(
+        "the program ends as {} and begins as {} in line {line}",
+        last[part], first[part]
+    );
+    let remedy =
+        "give one whole program, with one name and one unit in its first and its last block";
+    Some(OtherEnd {
+        fault: ProgramError::at(file, end.text.clone(), reason, remedy),
+        has_other_unit: part == 1,
+    })
 }

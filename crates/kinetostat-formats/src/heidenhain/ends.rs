@@ -3,9 +3,8 @@
 use kinetostat_program::last_digit_mm;
 use nalgebra::Vector2;
 
-use crate::heidenhain::arcs::{AGAIN, Arc, Turned, about, by_radius, polar, tangential};
+use crate::heidenhain::arcs::{AGAIN, Arc, Plane, Turned, about, by_radius, polar, tangential};
 use crate::heidenhain::path_words::{Coordinate, PathWords};
-use crate::heidenhain::plane::Plane;
 use crate::heidenhain::state::{Pole, State};
 use crate::heidenhain::words::Word;
 
@@ -99,7 +98,7 @@ impl Ends<'_> {
             b"LP" => (Shape::Polar { whole }, None),
             b"C" | b"CP" | b"CR" => (
                 Shape::Arc,
-                self.circle(kind.is("CR"), parsed, (plane, &end), turned)?,
+                self.circle(kind.is("CR"), parsed, plane, &end, turned)?,
             ),
             b"CT" | b"CTP" => {
                 let (from, to) = (self.state.in_plane(plane), plane.known(end));
@@ -208,7 +207,8 @@ impl Ends<'_> {
         &mut self,
         by_size: bool,
         parsed: &PathWords,
-        (plane, end): (Plane, &[Option<f64>; 3]),
+        plane: Plane,
+        end: &[Option<f64>; 3],
         turned: Option<f64>,
     ) -> Result<Option<Arc>, Reason> {
         let sense = parsed.sense.ok_or((

@@ -1,9 +1,10 @@
 //! Facts and acts of Heidenhain programs that files outside this folder ask for.
 
 use crate::error::WriteError;
-use crate::heidenhain::called::called;
+use crate::flat_run::RefusedRun;
+use crate::heidenhain::blocks::{is_numbered, numbered_again};
 use crate::heidenhain::expand::flat::run_or_refused;
-use crate::heidenhain::numbering::{is_numbered, numbered_again};
+use crate::heidenhain::flow::called;
 use crate::heidenhain::reading::reader::parse_heidenhain;
 use crate::heidenhain::table::HEIDENHAIN_STATEMENTS;
 use crate::heidenhain::writing::write::write_heidenhain;
@@ -11,10 +12,8 @@ use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
 use crate::options::{ReadOptions, WriteOptions};
 use crate::program_language::{ProgramLanguage, WrittenFile, with_ending};
-use crate::refused_run::RefusedRun;
 use crate::table::StatementRow;
-use crate::text::flat::FlatText;
-use crate::text::source::SourceFile;
+use crate::text::source::{FlatText, SourceFile};
 use crate::writing::piece::Piece;
 
 /// Heidenhain conversational.

@@ -1,9 +1,9 @@
-//! The words of a block: letters with a number, a sign, a Q parameter or a text.
+//! The words of a block: letters with a number, a sign, a Q parameter or a text; the resolution of lengths.
 
 use std::ops::Range;
 
-use crate::text::name::Name;
-use crate::text::number::NumberText;
+use crate::text::Name;
+use crate::text::number::{NumberText, short};
 
 /// Value after the letters of a word.
 #[derive(Debug, Clone, PartialEq)]
@@ -220,4 +220,21 @@ pub(crate) fn parameter_at(bytes: &[u8], at: usize, end: usize) -> Option<Range<
         .take_while(|byte| byte.is_ascii_digit())
         .count();
     (digits > 0).then_some(at..at + letters + digits)
+}
+
+/// Decimals of a length in a unit of so many mm: 4 in mm, 5 in inches. The control takes no more.
+pub(crate) fn decimals(unit_mm: f64) -> usize {
+    match unit_mm == 1.0 {
+        true => 4,
+        false => 5,
+    }
+}
+
+/// A length with its sign, as finely as the control resolves it.
+pub(crate) fn length(value: f64, unit_mm: f64) -> String {
+    let text = short(value, decimals(unit_mm));
+    match text.starts_with('-') {
+        true => text,
+        false => format!("+{text}"),
+    }
 }

@@ -3,24 +3,21 @@
 use std::marker::PhantomData;
 
 use crate::error::{ProgramError, WriteError};
-use crate::interpreter::assigned::symbols_of;
+use crate::flat_run::RefusedRun;
 use crate::interpreter::blocks::module_of;
 use crate::interpreter::flat::flat_of;
-use crate::interpreter::lexing::tokens_of;
+use crate::interpreter::lexing::{Words, symbols_of, tokens_of};
 use crate::interpreter::run::{Dialect, Run};
 use crate::interpreter::symbols::Symbols;
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::{Module, RoutineKind};
-use crate::interpreter::words::Words;
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::parsed::{Parsed, Read};
 use crate::model::program::RobotProgram;
 use crate::options::{ReadOptions, WriteOptions};
 use crate::program_language::{ProgramLanguage, WrittenFile, of_run};
-use crate::refused_run::RefusedRun;
 use crate::table::StatementRow;
-use crate::text::flat::FlatText;
-use crate::text::source::SourceFile;
+use crate::text::source::{FlatText, SourceFile};
 use crate::writing::motions::write_with;
 use crate::writing::piece::Piece;
 use crate::writing::syntax::Syntax;

@@ -4,13 +4,12 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::error::{ProgramError, note};
-use crate::interpreter::assigned::{Assigned, refuse_other_capitals, with_data};
+use crate::interpreter::lexing::{Assigned, Words, refuse_other_capitals, with_data};
 use crate::interpreter::token::{Kind, TokenFile};
 use crate::interpreter::tree::{
     Change, Choice, DatumNode, LoopKind, Module, Parameter, Routine, RoutineKind, Sight, Statement,
 };
-use crate::interpreter::words::Words;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Deepest nesting of blocks.
 const DEEPEST: usize = 100;

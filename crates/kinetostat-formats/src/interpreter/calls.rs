@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use crate::interpreter::expression::{Argument, Expression};
-use crate::interpreter::flow::Flow;
 use crate::interpreter::run::{Dialect, Run};
 use crate::interpreter::symbols::Scope;
+use crate::interpreter::tree::Flow;
 use crate::interpreter::value::Datum;
 use crate::table::Treatment;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// An argument by its name in capitals, or by its place among the parameters.
 pub(crate) fn argument<'e>(

@@ -4,16 +4,15 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::interpreter::expression::{Argument, Node};
-use crate::interpreter::flow::{Flow, Leave};
 use crate::interpreter::operation::same;
 use crate::interpreter::passing::SET_IT;
 use crate::interpreter::run::{Called, DEEPEST, Dialect, Place, Root, Run, Slot};
 use crate::interpreter::symbols::Scope;
 use crate::interpreter::token::TokenFile;
-use crate::interpreter::tree::{Choice, LoopKind, Statement};
+use crate::interpreter::tree::{Choice, Flow, Leave, LoopKind, Statement};
 use crate::interpreter::value::Datum;
 use crate::model::program::ENDLESS;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Limit of repeated statements of a run: in loops, and in routines that others call.
 const MOST_REPEATED: usize = 1_000_000;

@@ -4,7 +4,7 @@ use crate::interpreter::expression::{Argument, Expression, Node, Operator};
 use crate::interpreter::operation::{one, two};
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::value::{Datum, Literal, Step, Value};
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Values of names, results of functions, and names of components.
 pub(crate) trait Names {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Operators with one or two operands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

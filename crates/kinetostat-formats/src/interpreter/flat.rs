@@ -16,11 +16,8 @@ use crate::interpreter::tree::RoutineKind;
 use crate::interpreter::value::Datum;
 use crate::model::program::RanStatement;
 use crate::model::site::TargetSite;
-use crate::text::edits::Edits;
-use crate::text::finding::Finding;
-use crate::text::flat::FlatText;
-use crate::text::name::Name;
-use crate::text::source::SourceFile;
+use crate::text::Name;
+use crate::text::source::{Edits, Finding, FlatText, SourceFile};
 
 impl<D: Dialect> Run<'_, '_, D> {
     /// A motion that ran.
@@ -348,7 +345,7 @@ pub(crate) fn flat_of<D: Dialect>(
     }
     let log = run.log.unwrap_or_default();
     let called: BTreeSet<usize> = run.call_sites.keys().copied().collect();
-    let left_out = left_out(symbols, token_files, (&called, main), &log);
+    let left_out = left_out(symbols, token_files, &called, main, &log);
     let mut findings = run.findings;
     for index in &left_out {
         let home = symbols.routines[*index];
@@ -388,7 +385,9 @@ pub(crate) fn flat_of<D: Dialect>(
         }
     });
     let log: Vec<Logged> = between.chain(log).collect();
-    let origin = |of: &Logged| (of.file, files[of.file].line_of(of.at));
+    let put = |text: &[u8], of: &Logged, out: &mut Written| {
+        out.part(text, of.file, files[of.file].line_of(of.at));
+    };
     for file in token_files
         .iter()
         .filter(|file| D::JOINS_FILES || file.index == own)
@@ -404,7 +403,7 @@ pub(crate) fn flat_of<D: Dialect>(
         cuts.sort_by_key(|(span, _)| span.start);
         let copy = |span: Range<usize>, out: &mut Written| {
             let first = file.source.line_of(span.start);
-            out.part(file.source.part(&span), (file.index, first));
+            out.part(file.source.part(&span), file.index, first);
         };
         let mut at = 0;
         for (span, is_main) in cuts {
@@ -414,9 +413,9 @@ pub(crate) fn flat_of<D: Dialect>(
                 for (number, logged) in log.iter().enumerate() {
                     if number > 0 {
                         out.bytes.extend_from_slice(file.source.line_ending());
-                        out.part(&indentation, origin(logged));
+                        put(&indentation, logged, &mut out);
                     }
-                    out.part(&logged.text, origin(logged));
+                    put(&logged.text, logged, &mut out);
                 }
             }
             at = span.end.max(at);
@@ -436,7 +435,8 @@ pub(crate) fn flat_of<D: Dialect>(
 fn left_out(
     symbols: &Symbols<'_>,
     files: &[TokenFile<'_>],
-    (called, main): (&BTreeSet<usize>, usize),
+    called: &BTreeSet<usize>,
+    main: usize,
     log: &[Logged],
 ) -> BTreeSet<usize> {
     let texts = log.iter().map(|logged| logged.text.as_slice());

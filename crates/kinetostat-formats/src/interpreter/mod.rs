@@ -4,30 +4,24 @@
 //! or a loop on an unknown value is passed over where its arms neither move the tool nor change what is in force.
 //!
 //! A language brings its tokens ([`token`]), its grammar of expressions ([`reading`]), its statements as a [`tree`] with [`symbols`] (by the
-//! words of its blocks: [`lexing`], [`blocks`], [`assigned`], [`block_files`]), and what is its own by [`run::Dialect`]. Shared are the order of the run ([`control`], [`flow`], [`passing`]), its data ([`storage`],
-//! [`evaluate`], [`operation`], [`functions`], [`value`], [`stated`]), and the targets at which motions end ([`ends`], [`declared`], [`targets`]);
-//! [`whole`] runs all programs of the files and says at the end what a person should know;
-//! [`flat`] writes a program flat.
+//! words of its blocks: [`lexing`], [`blocks`], [`block_files`]), and what is its own by [`run::Dialect`]. Shared are the order of the run
+//! ([`control`], [`passing`]), its data ([`storage`], [`evaluate`], [`operation`], [`value`]), and the targets at which motions end
+//! ([`ends`], [`targets`]); [`whole`] runs all programs of the files and says at the end what a person should know; [`flat`] writes a
+//! program flat.
 
-pub(crate) mod assigned;
 pub(crate) mod block_files;
 pub(crate) mod blocks;
 pub(crate) mod calls;
 mod control;
-pub(crate) mod declared;
 pub(crate) mod ends;
 pub(crate) mod evaluate;
 pub(crate) mod expression;
 pub(crate) mod flat;
-pub(crate) mod flow;
-pub(crate) mod functions;
 pub(crate) mod lexing;
 pub(crate) mod operation;
 mod passing;
-pub(crate) mod printing;
 pub(crate) mod reading;
 pub(crate) mod run;
-pub(crate) mod stated;
 pub(crate) mod storage;
 pub(crate) mod symbols;
 mod targets;
@@ -35,4 +29,3 @@ pub(crate) mod token;
 pub(crate) mod tree;
 pub(crate) mod value;
 mod whole;
-pub(crate) mod words;

@@ -4,13 +4,12 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::interpreter::expression::{Argument, Expression, Node};
-use crate::interpreter::flow::Leave;
 use crate::interpreter::run::{Dialect, Place, Root, Run, Slot};
 use crate::interpreter::symbols::{Meaning, Scope};
 use crate::interpreter::token::TokenFile;
-use crate::interpreter::tree::{LoopKind, Statement};
+use crate::interpreter::tree::{Leave, LoopKind, Statement};
 use crate::interpreter::value::Datum;
-use crate::text::name::Name;
+use crate::text::Name;
 
 impl<D: Dialect> Run<'_, '_, D> {
     /// Passes over blocks of which only the controller knows whether they run: what they assign is unknown behind them. A block that moves the
@@ -186,13 +185,14 @@ impl<D: Dialect> Run<'_, '_, D> {
     /// Data that statements of a routine, and the routines that they call, assign or give to what may change them.
     pub(crate) fn assigned_in(&self, routine: usize, statements: &[Statement]) -> Vec<Root> {
         let mut found = Vec::new();
-        self.collect_assigned((routine, statements), &mut BTreeSet::new(), &mut found);
+        self.collect_assigned(routine, statements, &mut BTreeSet::new(), &mut found);
         found
     }
 
     fn collect_assigned(
         &self,
-        (routine, statements): (usize, &[Statement]),
+        routine: usize,
+        statements: &[Statement],
         seen: &mut BTreeSet<usize>,
         found: &mut Vec<Root>,
     ) {
@@ -245,7 +245,7 @@ impl<D: Dialect> Run<'_, '_, D> {
         for called in called {
             if seen.insert(called) {
                 let body = &self.symbols.routines[called].routine.body;
-                self.collect_assigned((called, body), seen, found);
+                self.collect_assigned(called, body, seen, found);
             }
         }
     }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::interpreter::expression::{Argument, Expression, Node, Operator};
 use crate::interpreter::token::{Kind, TokenFile};
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Deepest nesting of lists, calls and indices.
 const DEEPEST: usize = 32;

@@ -6,23 +6,19 @@ use std::ops::Range;
 use crate::error::{ProgramError, excerpt, note};
 use crate::interpreter::evaluate::index_of;
 use crate::interpreter::expression::{Argument, Expression, Operator};
-use crate::interpreter::flow::{Counting, Flow, Leave};
 use crate::interpreter::operation::two;
-use crate::interpreter::printing::printed;
 use crate::interpreter::reading::{self, Grammar};
-use crate::interpreter::stated::StatedValues;
 use crate::interpreter::symbols::{Scope, Symbols};
 use crate::interpreter::targets::Targets;
 use crate::interpreter::token::TokenFile;
-use crate::interpreter::tree::{Choice, DatumNode, RoutineKind};
-use crate::interpreter::value::{Datum, Step};
+use crate::interpreter::tree::{Choice, Counting, DatumNode, Flow, Leave, RoutineKind};
+use crate::interpreter::value::{Datum, StatedValues, Step, printed};
 use crate::model::motion::{Motion, Runs};
-use crate::model::outside_call::OutsideCall;
-use crate::model::program::RanStatement;
+use crate::model::program::{OutsideCall, RanStatement};
 use crate::options::ReadOptions;
 use crate::table::{StatementRow, Treatment};
-use crate::text::finding::Finding;
-use crate::text::name::Name;
+use crate::text::Name;
+use crate::text::source::Finding;
 
 /// The reason why something is refused, and the remedy.
 pub(crate) type Reason = (String, &'static str);

@@ -8,8 +8,8 @@ use crate::interpreter::run::{Dialect, Place, Root, Run, Slot, Ways};
 use crate::interpreter::symbols::{Meaning, Scope};
 use crate::interpreter::tree::Change;
 use crate::interpreter::value::{Datum, Step};
-use crate::text::finding::Finding;
-use crate::text::name::Name;
+use crate::text::Name;
+use crate::text::source::Finding;
 
 /// Deepest nesting of declarations that rest on others.
 const DEEPEST: usize = 12;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::error::{ProgramError, note};
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::{DatumNode, Preset, Routine, Sight};
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Scope of a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

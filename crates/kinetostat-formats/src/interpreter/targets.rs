@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::interpreter::symbols::Symbols;
 use crate::interpreter::token::{Kind, TokenFile};
 use crate::model::site::Declaration;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// The declared targets of a program.
 #[derive(Debug, Default)]

@@ -2,7 +2,14 @@
 
 use std::ops::Range;
 
-use crate::text::name::Name;
+use winnow::ascii::{digit0, digit1};
+use winnow::combinator::{alt, opt};
+use winnow::error::EmptyError;
+use winnow::prelude::*;
+use winnow::stream::LocatingSlice;
+use winnow::token::one_of;
+
+use crate::text::Name;
 use crate::text::source::SourceFile;
 
 /// Kinds of tokens.
@@ -169,4 +176,12 @@ impl TokenFile<'_> {
         }
         None
     }
+}
+
+/// A number without a sign, as RAPID and KRL write it.
+#[inline]
+pub(crate) fn number_literal(input: &mut LocatingSlice<&[u8]>) -> Result<(), EmptyError> {
+    let mantissa = alt(((digit1, opt((b'.', digit0))).void(), (b'.', digit1).void()));
+    let exponent = (one_of([b'e', b'E']), opt(one_of([b'+', b'-'])), digit1);
+    (mantissa, opt(exponent)).void().parse_next(input)
 }

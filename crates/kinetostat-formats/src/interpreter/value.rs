@@ -1,10 +1,15 @@
-//! Values while a program runs.
+//! Values while a program runs, as a language writes them and as the caller states them.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
 
-use crate::text::name::Name;
+use crate::interpreter::reading::Grammar;
+use crate::model::stated_value::StatedValue;
+use crate::options::ReadOptions;
+use crate::text::Name;
 use crate::text::number::NumberText;
+use crate::text::source::Finding;
 
 /// The literal in a file that states a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -202,5 +207,85 @@ impl Datum {
             }
             _ => {}
         }
+    }
+}
+
+/// A value by the grammar of a language; `None` if a part of it is unknown.
+pub(crate) fn printed(grammar: &Grammar, datum: &Datum) -> Option<String> {
+    let list = |before: &str, parts: &mut dyn Iterator<Item = &Datum>| {
+        let [open, close] = grammar.list?.map(char::from);
+        let parts: Option<Vec<String>> = parts.map(|part| printed(grammar, part)).collect();
+        Some(format!("{before}{open}{}{close}", parts?.join(",")))
+    };
+    Some(match &datum.value {
+        Value::Number(value) => value.to_string(),
+        Value::Truth(value) => grammar.truths[usize::from(*value)].to_owned(),
+        Value::Text(text) => format!("\"{text}\""),
+        Value::List(parts) => list("", &mut parts.iter())?,
+        Value::Members(members) => {
+            let (word, _) = grammar.aggregate?;
+            list(word, &mut members.iter().map(|(_, part)| part))?
+        }
+        Value::Unknown(_) => return None,
+    })
+}
+
+/// Stated values, and which of them the run asked for.
+pub(crate) struct StatedValues<'o> {
+    options: &'o ReadOptions,
+    values: BTreeMap<Name, Datum>,
+    used: BTreeSet<Name>,
+}
+
+impl<'o> StatedValues<'o> {
+    /// Values of the caller's options.
+    pub(crate) fn of(options: &'o ReadOptions) -> Self {
+        let values = options.values.iter().filter_map(|(name, value)| {
+            let value = match value {
+                StatedValue::Number(number) => Value::Number(*number),
+                StatedValue::Truth(truth) => Value::Truth(*truth),
+                StatedValue::Text(text) => Value::Text(text.as_str().into()),
+            };
+            Some((Name::of(name.as_bytes())?, Datum::of(value)))
+        });
+        Self {
+            options,
+            values: values.collect(),
+            used: BTreeSet::new(),
+        }
+    }
+
+    /// True where nothing is stated.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
+
+    /// The value of a name, which the run asks for.
+    pub(crate) fn ask(&mut self, name: &Name) -> Option<Datum> {
+        let value = self.values.get(name)?;
+        self.used.insert(*name);
+        Some(value.clone())
+    }
+
+    /// Values that decide the way of the program, and those that the run does not ask for.
+    pub(crate) fn findings(&self) -> impl Iterator<Item = Finding> {
+        self.options.values.iter().map(|(name, value)| {
+            let is_used = Name::of(name.as_bytes()).is_some_and(|own| self.used.contains(&own));
+            let message = match (is_used, value) {
+                (false, _) => {
+                    format!("a value of `{name}` is stated, and the run does not ask for it")
+                }
+                (true, StatedValue::Number(number)) => {
+                    format!("`{name}` is {number}, as is stated")
+                }
+                (true, StatedValue::Truth(truth)) => format!("`{name}` is {truth}, as is stated"),
+                (true, StatedValue::Text(text)) => format!("`{name}` is \"{text}\", as is stated"),
+            };
+            Finding {
+                file: 0,
+                line: 1,
+                message,
+            }
+        })
     }
 }

@@ -11,10 +11,10 @@ use crate::interpreter::storage::behind;
 use crate::interpreter::token::Kind;
 use crate::interpreter::tree::RoutineKind;
 use crate::interpreter::value::{Datum, Step, Value};
-use crate::model::findings::unreached_motions;
 use crate::model::motion::{Runs, mark_repeated};
+use crate::model::parsed::unreached_motions;
 use crate::model::site::TargetSite;
-use crate::text::name::Name;
+use crate::text::Name;
 
 impl<D: Dialect> Run<'_, '_, D> {
     /// Runs `main`, then each procedure that nothing calls as a program of its own.

@@ -3,24 +3,22 @@
 use std::ops::Range;
 
 use crate::interpreter::expression::{Argument, Expression, Node, Operator};
-use crate::interpreter::flow::{Counting, Flow, Leave};
 use crate::interpreter::operation::two;
 use crate::interpreter::reading::Grammar;
 use crate::interpreter::run::{Dialect, MotionParts};
 use crate::interpreter::symbols::Scope;
 use crate::interpreter::token::TokenFile;
-use crate::interpreter::tree::{Choice, DatumNode, Statement};
+use crate::interpreter::tree::{Choice, Counting, DatumNode, Flow, Leave, Statement};
 use crate::interpreter::value::{Datum, Step, Value};
 use crate::krl::ends::ends_of;
 use crate::krl::expression;
 use crate::krl::lex::assignment;
 use crate::krl::position::{datum_of, position_of};
-use crate::krl::role::Role;
 use crate::krl::settings::is_in_force;
-use crate::krl::state::{InForce, Krl, Run};
+use crate::krl::state::{InForce, Krl, Role, Run};
 use crate::krl::table::{motion_row, only_reads, row};
 use crate::table::Treatment;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Limit of the elements of an undeclared array.
 const MOST_UNDECLARED: usize = 128;

@@ -1,14 +1,22 @@
-//! Tools and bases: what the text or the caller says they are.
+//! Tools, bases and loads: what the text, a controller's `$config.dat` or the caller says they are.
 
-use nalgebra::Isometry3;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::ops::Range;
+
+use nalgebra::{Isometry3, Vector3};
 
 use crate::interpreter::expression::{Expression, Node, Operator};
+use crate::interpreter::token::TokenFile;
 use crate::interpreter::value::{Datum, Step, Value};
+use crate::krl::expression::{aggregate_of, place_of};
+use crate::krl::lex::{assignment, token_file};
 use crate::krl::position::position_of;
-use crate::krl::role::Role;
-use crate::krl::state::{Run, key};
-use crate::model::frame::{Frame, FrameUse};
-use crate::text::name::Name;
+use crate::krl::state::{Role, Run, key};
+use crate::model::motion::{Frame, FrameUse, ToolLoad};
+use crate::model::orientation::OrientationText;
+use crate::text::Name;
+use crate::text::source::SourceFile;
 
 /// Frames nearer than this are one: what stated numbers lose where they are written down, mm and rad.
 const SAME: [f64; 2] = [1e-6, 1e-8];
@@ -215,4 +223,193 @@ impl Run<'_, '_> {
             false => name,
         }
     }
+}
+
+// Source: KUKA, KR C2 / KR C3 Expert Programming, KSS 5.x: `TOOL_DATA[n]` and `BASE_DATA[n]` stand in `R1\System\$config.dat`.
+
+/// File name of the controller's data.
+pub const KRL_CONFIG: &str = "$config.dat";
+
+/// Largest file of which they are taken.
+const MOST_BYTES: usize = 1 << 24;
+
+/// Names that refer to tools and bases by number: arrays, data of inline forms, arguments of BAS; and the home position.
+const NAMING: [&[u8]; 7] = [
+    b"TOOL_DATA",
+    b"BASE_DATA",
+    b"TOOL_NO",
+    b"BASE_NO",
+    b"#TOOL",
+    b"#BASE",
+    b"XHOME",
+];
+
+/// True if files refer to tools or bases by number, or to the controller's home position, and none of them is a `$config.dat`.
+///
+/// ```
+/// use kinetostat_formats::{SourceFile, krl_needs_config};
+///
+/// let file = |name: &str, text: &str| SourceFile::new(name, text);
+/// assert!(krl_needs_config(&[file("a.src", "DEF a()\n$base=base_data[2]\nEND\n")]));
+/// assert!(!krl_needs_config(&[file("a.src", "DEF a()\n$BASE={X 0,Y 0,Z 0,A 0,B 0,C 0}\nEND\n")]));
+/// let config = "DEFDAT $CONFIG PUBLIC\nBASE_DATA[2]={X 0,Y 0,Z 0,A 0,B 0,C 0}\nENDDAT\n";
+/// assert!(!krl_needs_config(&[file("a.src", "$BASE=BASE_DATA[2]\n"), file("R1/System/$Config.dat", config)]));
+/// ```
+#[must_use]
+pub fn krl_needs_config(files: &[SourceFile]) -> bool {
+    let is_config = |file: &SourceFile| {
+        let name = file.name().rsplit(['/', '\\']).next().unwrap_or_default();
+        name.eq_ignore_ascii_case(KRL_CONFIG)
+    };
+    !files.iter().any(is_config) && files.iter().any(|file| names_frames(file.bytes()))
+}
+
+fn names_frames(bytes: &[u8]) -> bool {
+    let mut all = bytes.iter().enumerate();
+    all.any(|(at, byte)| {
+        matches!(byte, b'T' | b't' | b'B' | b'b' | b'#' | b'X' | b'x')
+            && NAMING.iter().any(|word| begins(&bytes[at..], word))
+    })
+}
+
+/// The tools, bases and positions of a `$config.dat` and nothing else of it, in their lines: `TOOL_DATA[n]={...}` and `BASE_DATA[n]={...}`
+/// with the number written, and what is declared with its value (`DECL E6AXIS XHOME={...}`, `DECL FDAT FHOME={...}`). None where it holds none, or is larger than 16 MiB.
+///
+/// ```
+/// use kinetostat_formats::{SourceFile, krl_frames_of_config};
+///
+/// let config = "&ACCESS RV1\nDEFDAT $CONFIG\nINT USER=3\nbase_data[2] = {FRAME: X 10.0,Y 0,Z 0,A 0,B 0,C 0}\nBASE_DATA[I]={X 0}\nENDDAT\n";
+/// let frames = krl_frames_of_config(&SourceFile::new("$config.dat", config)).unwrap();
+/// let expected = "\nDEFDAT $CONFIG PUBLIC\n\nbase_data[2] = {FRAME: X 10.0,Y 0,Z 0,A 0,B 0,C 0}\n\nENDDAT\n";
+/// assert_eq!(frames.bytes(), expected.as_bytes());
+/// assert!(krl_frames_of_config(&SourceFile::new("$config.dat", "DEFDAT $CONFIG\nENDDAT\n")).is_none());
+/// ```
+#[must_use]
+pub fn krl_frames_of_config(config: &SourceFile) -> Option<SourceFile> {
+    if config.bytes().len() > MOST_BYTES {
+        return None;
+    }
+    let mut kept = Vec::new();
+    let mut found = false;
+    for line in config.bytes().split(|byte| *byte == b'\n') {
+        let line = line.trim_ascii();
+        if begins(line, b"DEFDAT") {
+            kept.extend_from_slice(b"DEFDAT $CONFIG PUBLIC");
+        } else if begins(line, b"ENDDAT") {
+            kept.extend_from_slice(b"ENDDAT");
+        } else if is_frame(line) || is_declared(line) {
+            found = true;
+            kept.extend_from_slice(line);
+        }
+        kept.push(b'\n');
+    }
+    kept.pop();
+    found.then(|| SourceFile::new(config.name(), kept))
+}
+
+fn begins(line: &[u8], word: &[u8]) -> bool {
+    line.get(..word.len())
+        .is_some_and(|start| start.eq_ignore_ascii_case(word))
+}
+
+/// Types of positions, and of the data of inline forms that go with them.
+const TYPES: [&[u8]; 8] = [
+    b"FRAME", b"POS", b"E3POS", b"E6POS", b"AXIS", b"E3AXIS", b"E6AXIS", b"FDAT",
+];
+
+/// True if a line declares a position, or the tool and base of one, with its value.
+fn is_declared(line: &[u8]) -> bool {
+    let mut parts = line.splitn(2, |byte| *byte == b'=');
+    let (Some(head), Some(value)) = (parts.next(), parts.next()) else {
+        return false;
+    };
+    let mut words = head.split(u8::is_ascii_whitespace);
+    let is_of_type = |word: &[u8]| TYPES.iter().any(|name| word.eq_ignore_ascii_case(name));
+    !line.starts_with(b";") && words.any(is_of_type) && value.trim_ascii_start().starts_with(b"{")
+}
+
+/// True if a line assigns a numeric frame to an element of TOOL_DATA or BASE_DATA.
+fn is_frame(line: &[u8]) -> bool {
+    let arrays = [Role::Tool, Role::Base].map(Role::array);
+    let Some(array) = arrays.iter().find(|name| begins(line, name.as_bytes())) else {
+        return false;
+    };
+    let parts = || {
+        let rest = line[array.len()..].trim_ascii_start().strip_prefix(b"[")?;
+        let close = rest.iter().position(|byte| *byte == b']')?;
+        let value = rest[close + 1..].trim_ascii_start().strip_prefix(b"=")?;
+        Some((rest[..close].trim_ascii(), value.trim_ascii_start()))
+    };
+    parts().is_some_and(|(number, value)| {
+        !number.is_empty()
+            && number.iter().all(u8::is_ascii_digit)
+            && value.starts_with(b"{")
+            && value.contains(&b'}')
+    })
+}
+
+// The loads of tools that programs and data lists state: `LOAD_DATA[4]={M 5.5,CM {X 0,Y 0,Z 60,A 0,B 0,C 0},J {X 0.1,Y 0.1,Z 0.05}}`.
+//
+// Source: KUKA System Software 8.x, Operating and Programming Instructions for System Integrators: mass in kg, centre of mass and axes
+// of the moments of inertia in axes of the flange, moments about these axes through the centre of mass in kg m^2.
+
+/// Loads by tool number; a tool with conflicting loads is left out, and no load is known if `$LOAD` is not set from the array.
+pub(crate) fn tool_loads(files: &[SourceFile]) -> BTreeMap<u32, ToolLoad> {
+    let mut found: BTreeMap<u32, Option<ToolLoad>> = BTreeMap::new();
+    for (index, source) in files.iter().enumerate() {
+        let file = token_file(index, source);
+        for line in &file.lines {
+            let Some(equals) = assignment(&file, &line.tokens) else {
+                continue;
+            };
+            let value = equals + 1..line.tokens.end;
+            let (is_of_array, sets) = match file.name(line.tokens.start) {
+                Some(name) if name.is("$LOAD") => {
+                    let from = file.name(value.start);
+                    (false, from.is_none_or(|from| !from.is("LOAD_DATA")))
+                }
+                Some(name) => (name.is("LOAD_DATA"), false),
+                None => continue,
+            };
+            if sets {
+                return BTreeMap::new();
+            }
+            if !is_of_array {
+                continue;
+            }
+            let (place, number) = place_of(&file, line.tokens.start, equals);
+            let Some(number) = number.filter(|_| place.len() > 1) else {
+                return BTreeMap::new();
+            };
+            let is_whole = place == (line.tokens.start..equals);
+            let load = load_of(&file, &value).filter(|_| is_whole);
+            match found.entry(number) {
+                Entry::Vacant(place) => {
+                    place.insert(load);
+                }
+                Entry::Occupied(mut known) if *known.get() != load => {
+                    known.insert(None);
+                }
+                Entry::Occupied(_) => {}
+            }
+        }
+    }
+    let known = found.into_iter();
+    known
+        .filter_map(|(number, load)| Some((number, load?)))
+        .collect()
+}
+
+fn load_of(file: &TokenFile<'_>, value: &Range<usize>) -> Option<ToolLoad> {
+    let load = aggregate_of(file, value)?;
+    let centre = aggregate_of(file, load.member("CM")?)?;
+    let moments = aggregate_of(file, load.member("J")?)?;
+    let [x, y, z, a, b, c] = ["X", "Y", "Z", "A", "B", "C"].map(|name| centre.number(file, name));
+    let [jx, jy, jz] = ["X", "Y", "Z"].map(|name| moments.number(file, name));
+    Some(ToolLoad {
+        mass_kg: load.number(file, "M")?,
+        centre_of_mass_mm: Vector3::new(x?, y?, z?),
+        axes_of_moment: OrientationText::Abc.rotation_of(&[a?, b?, c?])?,
+        inertia_kg_m2: Vector3::new(jx?, jy?, jz?),
+    })
 }

@@ -3,20 +3,19 @@
 use std::ops::Range;
 
 use crate::error::excerpt;
-use crate::interpreter::flow::Flow;
 use crate::interpreter::run::{Place, Root};
 use crate::interpreter::symbols::Scope;
+use crate::interpreter::tree::Flow;
 use crate::krl::ends::ends_of;
 use crate::krl::expression::{arguments_of, expression_of};
-use crate::krl::folds::{contradiction, folds_of, text_of};
-use crate::krl::lex::assignment;
+use crate::krl::lex::{assignment, contradiction, folds_of, text_of};
 use crate::krl::settings::is_in_force;
 use crate::krl::state::Run;
 use crate::krl::table::{Ends, MotionRow, OPERATORS, motion_row, row};
 use crate::model::motion::Zone;
 use crate::table::Treatment;
-use crate::text::finding::Finding;
-use crate::text::name::Name;
+use crate::text::Name;
+use crate::text::source::Finding;
 
 impl Run<'_, '_> {
     /// Runs a statement that is no assignment.

@@ -2,26 +2,25 @@
 
 use std::collections::BTreeSet;
 
+use nalgebra::Vector3;
+
 use crate::error::WriteError;
+use crate::flat_run::RefusedRun;
+use crate::krl::frames::krl_needs_config;
 use crate::krl::reader::{expand_krl, is_data_list, parse_krl};
-use crate::krl::system_frames::krl_needs_config;
 use crate::krl::table::{IN_MOTIONS, KRL_STATEMENTS, MODES, MOTIONS, row};
 use crate::krl::writing::write::write_krl;
 use crate::model::motion::Motion;
 use crate::model::orientation::OrientationText;
 use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
-use crate::model::stated_arm::StatedArm;
-use crate::model::target::Configuration;
+use crate::model::target::{Configuration, StatedArm};
 use crate::options::{ReadOptions, WriteOptions};
 use crate::program_language::{ProgramLanguage, WrittenFile, of_run, with_ending};
-use crate::refused_run::RefusedRun;
 use crate::table::StatementRow;
-use crate::text::flat::FlatText;
-use crate::text::name::Name;
-use crate::text::source::SourceFile;
+use crate::text::Name;
+use crate::text::source::{FlatText, SourceFile};
 use crate::writing::piece::Piece;
-use nalgebra::Vector3;
 
 /// Variables that say how fast the arm moves beside `$VEL.CP`.
 const DYNAMICS: [&str; 8] = [

@@ -4,19 +4,13 @@ use std::ops::Range;
 
 use crate::interpreter::run::Reason;
 use crate::interpreter::token::TokenFile;
-use crate::krl::behind_ends::{Rest, Rounding, rest_of};
-use crate::krl::ends::{End, ends_of};
+use crate::krl::behind_ends::{Rest, Rounding, SpeedPlace, rest_of};
+use crate::krl::ends::{End, WRITE_END, ends_of, step_of};
 use crate::krl::expression::expression_of;
-use crate::krl::kept::{completed, is_beyond, kept_angles};
-use crate::krl::position::position_of;
-use crate::krl::role::Role;
-use crate::krl::speed_place::SpeedPlace;
-use crate::krl::state::Run;
-use crate::krl::steps::{WRITE_END, step_of};
+use crate::krl::position::{completed, is_beyond, kept_angles, position_of};
+use crate::krl::state::{KEPT, Role, Run, turned};
 use crate::krl::table::{Ends, MotionRow};
-use crate::krl::turning::{KEPT, turned};
-use crate::model::frame::{Frame, FrameUse};
-use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
+use crate::model::motion::{Frame, FrameUse, Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::site::{MotionSite, SpeedSite, TargetSite};
 use crate::model::target::{PoseTarget, Target};
 use crate::options::UnknownTargets;
@@ -38,7 +32,7 @@ impl Run<'_, '_> {
         let file = self.file();
         let ends = ends_of(file, tokens, row.ends);
         let end_tokens = ends.last().cloned().unwrap_or(tokens.end..tokens.end);
-        are_apart(file, (row, tokens), &ends, &end_tokens)?;
+        are_apart(file, row, tokens, &ends, &end_tokens)?;
         let behind = behind_end(file, end_tokens.end);
         let rest = rest_of(file, behind..tokens.end, row.ends.are_steps())?;
         let before = (!rest.with.is_empty()).then(|| self.own.force.clone());
@@ -69,7 +63,7 @@ impl Run<'_, '_> {
             .map(|last| last.target.clone());
         let is_beyond = self.here.is_some_and(|here| self.own.beyond[here]);
         let mut end = match row.ends.are_steps() {
-            true => self.step_from(&end_tokens, from.as_ref(), (is_joint, rest.in_tool))?,
+            true => self.step_from(&end_tokens, from.as_ref(), is_joint, rest.in_tool)?,
             false => {
                 // Joint motions are not corrected: what goes on from there says whether it must be known.
                 let is_left = is_joint && self.is_elsewhere(&end_tokens);
@@ -110,7 +104,7 @@ impl Run<'_, '_> {
             false => self.speed(tokens, &end_tokens, rest),
         };
         self.own.beyond.truncate(self.motions.len());
-        let ends_beyond = end.b.map_or(is_beyond, crate::krl::kept::is_beyond);
+        let ends_beyond = end.b.map_or(is_beyond, crate::krl::position::is_beyond);
         self.own.beyond.push(match end.site {
             TargetSite::Offset { .. } | TargetSite::Replaced(_) | TargetSite::Joints(_) => false,
             _ => ends_beyond,
@@ -196,7 +190,8 @@ impl Run<'_, '_> {
         &mut self,
         tokens: &Range<usize>,
         from: Option<&Target>,
-        (is_joint, in_tool): (bool, bool),
+        is_joint: bool,
+        in_tool: bool,
     ) -> Result<End, Reason> {
         let value = self.value(&expression_of(self.file(), tokens.clone()));
         let position = position_of(self.files, &value)
@@ -290,7 +285,8 @@ impl Run<'_, '_> {
 /// Between the ends of a circle stands a comma, and behind the last end a blank.
 fn are_apart(
     file: &TokenFile<'_>,
-    (row, tokens): (&MotionRow, &Range<usize>),
+    row: &MotionRow,
+    tokens: &Range<usize>,
     ends: &[Range<usize>],
     last: &Range<usize>,
 ) -> Result<(), Reason> {

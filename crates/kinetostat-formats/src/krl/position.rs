@@ -1,15 +1,15 @@
-//! Positions and frames as values: `{X 1.0,Y 2.0,A 90,S 2,T 35}`.
+//! Positions and frames as values (`{X 1.0,Y 2.0,A 90,S 2,T 35}`), and the coordinates that an end takes over from the previous pose.
 
 use std::ops::Range;
 
-use nalgebra::{Isometry3, Translation3, UnitQuaternion};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::value::{Datum, Value};
 use crate::model::orientation::OrientationText;
 use crate::model::site::PoseText;
 use crate::model::target::{Configuration, PoseTarget};
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::number::{NumberText, Width};
 
 pub(crate) const PLACE: [&str; 6] = ["X", "Y", "Z", "A", "B", "C"];
@@ -57,7 +57,7 @@ pub(crate) fn position_of(files: &[TokenFile<'_>], datum: &Datum) -> Result<Posi
         if same.count() > 1 {
             return Err("it states a component twice".to_owned());
         }
-        position.set(files, (datum, name), value)?;
+        position.set(files, datum, name, value)?;
     }
     Ok(position)
 }
@@ -67,7 +67,8 @@ impl Position {
     fn set(
         &mut self,
         files: &[TokenFile<'_>],
-        (whole, name): (&Datum, &Name),
+        whole: &Datum,
+        name: &Name,
         value: &Datum,
     ) -> Result<(), String> {
         if let Some(reason) = value.unknown_reason() {
@@ -219,4 +220,53 @@ pub(crate) fn datum_of(frame: &Isometry3<f64>) -> Datum {
     let members = PLACE.iter().zip(values);
     let members = members.filter_map(|(name, value)| Some((Name::of(name.as_bytes())?, value)));
     Datum::of(Value::Members(members.collect::<Vec<_>>().into()))
+}
+
+/// A, B and C of an orientation as a controller says them: B no farther than 90 degrees.
+pub(crate) fn kept_angles(orientation: &UnitQuaternion<f64>) -> [f64; 3] {
+    let [a, b, c] = angles_of(orientation);
+    let other = |angle: f64| match angle > 0.0 {
+        true => angle - 180.0,
+        false => angle + 180.0,
+    };
+    let angles = match b.abs() > 90.0 {
+        true => [other(a), 180.0_f64.copysign(b) - b, other(c)],
+        false => [a, b, c],
+    };
+    // Half a turn is 180 degrees, also where the last bit says -180.
+    angles.map(|angle| match angle < HALF_TURN_DEG {
+        true => angle + 360.0,
+        false => angle,
+    })
+}
+
+/// Half a turn backward, with the last bits that a rotation loses, degrees.
+const HALF_TURN_DEG: f64 = 1e-9 - 180.0;
+
+/// Tolerance of B about 90 degrees: from there on, omitted angles may differ from those that were written.
+const NEAR_BEYOND_DEG: f64 = 1e-6;
+
+/// True if the controller may express the same orientation with another A and C at this B.
+pub(crate) fn is_beyond(b: f64) -> bool {
+    b.is_nan() || b.abs() > 90.0 - NEAR_BEYOND_DEG
+}
+
+/// Fills in what a position leaves open from the pose of before; none where that is not certain.
+pub(crate) fn completed(
+    open: &[Option<f64>; 6],
+    before: &PoseTarget,
+    is_beyond: bool,
+) -> Option<(Vector3<f64>, UnitQuaternion<f64>)> {
+    let place = [0, 1, 2].map(|axis| open[axis].unwrap_or(before.position_mm[axis]));
+    let turn = match (open[3], open[4], open[5]) {
+        (None, None, None) => before.orientation,
+        (Some(a), Some(b), Some(c)) => OrientationText::Abc.rotation_of(&[a, b, c])?,
+        _ if is_beyond => return None,
+        (a, b, c) => {
+            let kept = kept_angles(&before.orientation);
+            let angles = [0, 1, 2].map(|index| [a, b, c][index].unwrap_or(kept[index]));
+            OrientationText::Abc.rotation_of(&angles)?
+        }
+    };
+    Some((Vector3::from(place), turn))
 }

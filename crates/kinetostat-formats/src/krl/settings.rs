@@ -1,4 +1,5 @@
-//! Statements that put something in force: `$BASE=`, `$VEL.CP=`, `$APO=`, `FDAT_ACT=`.
+//! Statements that put something in force: `$BASE=`, `$VEL.CP=`, `$APO=`, `FDAT_ACT=`, `BAS(#CP_PARAMS,0.2)`; those that move the tool on its
+//! points are refused.
 
 use std::ops::Range;
 
@@ -8,13 +9,9 @@ use crate::interpreter::run::Reason;
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::value::{Datum, Value};
 use crate::krl::expression::expression_of;
-use crate::krl::moving_settings::{EXTERNAL_TOOL, TAKE_OUT, moves_no_points};
-use crate::krl::role::Role;
-use crate::krl::state::{PointData, Run};
-use crate::krl::turning::{auxiliary_turn, choice_of, keeps_its_orientation};
-use crate::model::frame::FrameUse;
-use crate::model::motion::Speed;
-use crate::text::name::Name;
+use crate::krl::state::{PointData, Role, Run, auxiliary_turn, choice_of, keeps_its_orientation};
+use crate::model::motion::{FrameUse, Speed};
+use crate::text::Name;
 
 /// Names of what is in force: an assignment to one changes how motions run.
 const IN_FORCE: [&str; 15] = [
@@ -136,7 +133,7 @@ impl Run<'_, '_> {
                 });
                 auxiliary_turn(&file.text(tokens), of_data.as_deref())?;
             }
-            _ => moves_no_points(file, (&name, tokens, &value.tokens))?,
+            _ => moves_no_points(file, &name, tokens, &value.tokens)?,
         }
         Ok(())
     }
@@ -217,4 +214,148 @@ fn first_argument(file: &TokenFile<'_>, call: &Expression) -> Expression {
     let close = call.tokens.end.saturating_sub(1).max(open);
     let end = file.find(open..close, b',').unwrap_or(close);
     expression_of(file, open..end)
+}
+
+// BAS, by which inline forms put in force what their data state: `BAS(#CP_PARAMS,0.2)`.
+
+impl Run<'_, '_> {
+    /// `BAS(#COMMAND,value)`: tokens of the whole call.
+    pub(super) fn bas(&mut self, tokens: &Range<usize>) -> Result<(), Reason> {
+        let file = self.file();
+        let is_command = file.is(tokens.start + 1, b'(') && file.is(tokens.start + 2, b'#');
+        let command = is_command.then(|| file.name(tokens.start + 3)).flatten();
+        let comma = file.find(tokens.start + 2..tokens.end, b',');
+        let close = file
+            .find(tokens.start + 2..tokens.end, b')')
+            .unwrap_or(tokens.end);
+        let value = comma.map_or(close..close, |comma| comma + 1..close);
+        let number = match value.is_empty() {
+            true => None,
+            false => self.value(&expression_of(file, value.clone())).as_number(),
+        };
+        let Some(command) = command else {
+            self.own.force.forget();
+            return Ok(());
+        };
+        let linear_mm = self.own.force.linear_mm;
+        match command.letters() {
+            b"CP_PARAMS" | b"PTP_PARAMS" | b"FRAMES" => {
+                self.frames_of_point()?;
+                if command.is("CP_PARAMS") {
+                    self.set_speed(number, file.text(tokens));
+                    self.own.force.distance_mm = linear_mm;
+                } else if command.is("PTP_PARAMS") {
+                    self.own.force.joint_percent = self.own.force.joint;
+                }
+            }
+            b"TOOL" | b"BASE" => {
+                let role = match command.is("TOOL") {
+                    true => Role::Tool,
+                    false => Role::Base,
+                };
+                let frame = match number.filter(|number| *number >= 0.0) {
+                    Some(number) => Some(self.numbered(role, number as u32)),
+                    None if value.is_empty() => None,
+                    None => Some(self.computed(role, &file.text(&value))),
+                };
+                match role {
+                    Role::Base => self.own.force.base = frame,
+                    Role::Tool => self.own.force.tool = frame,
+                }
+            }
+            b"VEL_CP" => self.set_speed(number, file.text(tokens)),
+            b"CP_DAT" => {
+                self.own.force.speed = None;
+                self.own.force.distance_mm = linear_mm;
+            }
+            b"PTP_DAT" => self.own.force.joint_percent = self.own.force.joint,
+            b"VEL_PTP" | b"ACC_CP" | b"ACC_PTP" | b"OUT_SYNC" | b"OUT_ASYNC" | b"GROUP" => {}
+            _ => {
+                self.own.force.forget();
+                if command.is("INITMOV") {
+                    self.own.force.keeps_orientation = false;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn frames_of_point(&mut self) -> Result<(), Reason> {
+        let point = self.own.force.point;
+        if point.is_some_and(|point| point.is_external) {
+            return Err((EXTERNAL_TOOL.to_owned(), TAKE_OUT));
+        }
+        let tool = point.and_then(|point| point.tool);
+        let base = point.and_then(|point| point.base);
+        self.own.force.tool = tool.map(|number| self.numbered(Role::Tool, number));
+        self.own.force.base = base.map(|number| self.numbered(Role::Base, number));
+        Ok(())
+    }
+}
+
+// Assignments to system variables that move the tool on its points, or apart from them: refused.
+
+/// The tool stands still and the part is in the hand: base and tool change their parts.
+pub(crate) const EXTERNAL_TOOL: &str =
+    "the tool stands still and the robot holds the part (#TCP), which is not followed";
+pub(crate) const TAKE_OUT: &str = "take the motions of such a tool into a program of their own";
+
+/// Frames on which all others stand.
+const ROOTS: [&str; 4] = ["$ROBROOT", "$WORLD", "$ERSYSROOT", "$NULLFRAME"];
+
+/// Refuses an assignment of a value to such a variable.
+pub(crate) fn moves_no_points(
+    file: &TokenFile<'_>,
+    name: &Name,
+    tokens: &Range<usize>,
+    value: &Range<usize>,
+) -> Result<(), Reason> {
+    let is_watched = |all: &[&str]| all.iter().any(|one| name.is(one));
+    if !is_watched(&ROOTS) && !is_watched(&["$IPO_MODE", "$EX_AX_IGNORE", "$TECH"]) {
+        return Ok(());
+    }
+    let shown = || excerpt(file.text(tokens).as_bytes());
+    let stated = file.text(value).trim().to_uppercase();
+    let says = |word: &str| stated.contains(word);
+    if name.is("$IPO_MODE") && !says("#BASE") {
+        return match says("#TCP") {
+            true => Err((EXTERNAL_TOOL.to_owned(), TAKE_OUT)),
+            false => Err((
+                format!(
+                    "`{}`: whether the robot holds the tool or the part is computed while the program runs",
+                    shown()
+                ),
+                "write $IPO_MODE=#BASE where the robot holds the tool",
+            )),
+        };
+    }
+    if is_watched(&ROOTS) {
+        return Err((
+            format!(
+                "`{}`: all points behind it stand elsewhere, which is not followed",
+                shown()
+            ),
+            "leave it as the controller has it, and shift $BASE",
+        ));
+    }
+    if name.is("$EX_AX_IGNORE") && !matches!(stated.as_str(), "0" | "'B0'" | "'B00'" | "'B000000'")
+    {
+        return Err((
+            format!(
+                "`{}`: external axes do not go to what the points say",
+                shown()
+            ),
+            "write points with the external axes where they stand",
+        ));
+    }
+    if name.is("$TECH") && !says("#OFF") {
+        return Err((
+            format!(
+                "`{}`: a function of the controller may move the tool beside the program",
+                shown()
+            ),
+            "take the motions with it into a program of their own",
+        ));
+    }
+    Ok(())
 }

@@ -2,7 +2,7 @@
 
 use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{Alike, StatementRow, Treatment, alike, count, line, row_of, rows, sorted};
-use crate::text::name::Name;
+use crate::text::Name;
 
 const KSS: &str =
     "KUKA System Software 8.x, Operating and Programming Instructions for System Integrators";

@@ -3,11 +3,10 @@
 use crate::interpreter::expression::Expression;
 use crate::interpreter::operation::same;
 use crate::interpreter::value::{Datum, Value};
-use crate::ls::flat_lines::FlatLines;
 use crate::ls::motion::MotionText;
 use crate::ls::passing::Open;
 use crate::ls::program::label_of;
-use crate::ls::run::{Flow, Pass, Run, RunningCall, index_of_axes};
+use crate::ls::run::{FlatLines, Flow, Pass, Run, RunningCall, index_of_axes};
 use crate::ls::step::{CallText, CaseText, ForText, Step};
 use crate::model::motion::{Motion, Runs};
 
@@ -38,7 +37,7 @@ impl Run<'_, '_> {
             if self.statements > MOST_STATEMENTS {
                 let reason = "the program runs more than 5 million statements up to here";
                 let remedy = "end its loop, or read the part that cuts by itself";
-                self.fault(at, (reason.to_owned(), remedy));
+                self.fault(at, reason, remedy);
                 break Flow::Ends;
             }
             match self.step(at, step) {
@@ -110,7 +109,7 @@ impl Run<'_, '_> {
                 self.forget();
             }
             Step::Refused((reason, remedy)) => {
-                self.fault(at, ((*reason).to_owned(), remedy));
+                self.fault(at, *reason, remedy);
                 self.here = None;
             }
             Step::Label(_) | Step::EndIf | Step::Case(_) | Step::Carried => {}
@@ -136,7 +135,7 @@ impl Run<'_, '_> {
             None if label_of(&index.node).is_some() => Flow::Next,
             None => {
                 let reason = format!("there is no label {label} in the program");
-                self.fault(at, (reason, "write the label, or take the jump out"));
+                self.fault(at, reason, "write the label, or take the jump out");
                 Flow::Next
             }
         }
@@ -173,7 +172,7 @@ impl Run<'_, '_> {
         }
         if self.calls.len() >= DEEPEST {
             let reason = "calls are nested deeper than 200".to_owned();
-            self.fault(at, (reason, "call what is deepest from the first program"));
+            self.fault(at, reason, "call what is deepest from the first program");
             return Flow::Ends;
         }
         let arguments = call.arguments.iter().map(|of| self.value(of)).collect();
@@ -325,7 +324,7 @@ impl Run<'_, '_> {
                 }
             }
         }
-        self.log_endless(at, (before.saturating_sub(count), beside));
+        self.log_endless(at, before.saturating_sub(count), beside);
         self.find(
             at,
             "the loop never ends: its first pass is read, and its corrections are those of all",
@@ -339,7 +338,7 @@ impl Run<'_, '_> {
             self.repeated_motions += 1;
             if self.repeated_motions > MOST_REPEATED {
                 let reason = "the loops of the program run more than 200000 motions".to_owned();
-                self.fault(at, (reason, "read the part that cuts by itself"));
+                self.fault(at, reason, "read the part that cuts by itself");
                 return Flow::Ends;
             }
         }
@@ -356,8 +355,8 @@ impl Run<'_, '_> {
                     return self.pass_over(at, &why, Open::steps(at, vec![&jump]));
                 }
             }
-            Err(reason) => {
-                self.fault(at, reason);
+            Err((reason, remedy)) => {
+                self.fault(at, reason, remedy);
                 self.here = None;
             }
         }

@@ -5,8 +5,8 @@
 use std::ops::Range;
 
 use crate::interpreter::expression::{Expression, Node, Operator};
-use crate::ls::words::{Kind, Word, words_of};
-use crate::text::name::Name;
+use crate::ls::lines::{Kind, Word, words_of};
+use crate::text::Name;
 
 /// Deepest nesting of brackets and signs.
 const DEEPEST: usize = 16;

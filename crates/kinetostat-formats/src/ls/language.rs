@@ -1,7 +1,8 @@
 //! Facts and acts of FANUC TP programs that files outside this folder ask for.
 
 use crate::error::WriteError;
-use crate::ls::expand::expand_ls;
+use crate::flat_run::RefusedRun;
+use crate::ls::flat::expand_ls;
 use crate::ls::lines::Layout;
 use crate::ls::reader::parse_ls;
 use crate::ls::step::{Step, step_of};
@@ -11,14 +12,11 @@ use crate::model::motion::Motion;
 use crate::model::orientation::OrientationText;
 use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
-use crate::model::stated_arm::StatedArm;
-use crate::model::target::Configuration;
+use crate::model::target::{Configuration, StatedArm};
 use crate::options::{ReadOptions, WriteOptions};
 use crate::program_language::{ProgramLanguage, WrittenFile, of_run, with_ending};
-use crate::refused_run::RefusedRun;
 use crate::table::StatementRow;
-use crate::text::flat::FlatText;
-use crate::text::source::SourceFile;
+use crate::text::source::{FlatText, SourceFile};
 use crate::writing::piece::Piece;
 
 /// FANUC TP programs as text.

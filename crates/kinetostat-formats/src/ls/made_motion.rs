@@ -8,12 +8,11 @@ use crate::ls::positions::{Held, Position};
 use crate::ls::run::{InForce, Run, index_of_axes};
 use crate::ls::storage::{frame_of, name_of};
 use crate::ls::table::OFFSET;
-use crate::model::frame::{Frame, FrameUse};
-use crate::model::motion::{Motion, MotionKind, Runs, Speed};
+use crate::model::motion::{Frame, FrameUse, Motion, MotionKind, Runs, Speed};
 use crate::model::site::{MotionSite, OffsetAxes, TargetSite, TurnsOtherwise};
 use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::UnknownTargets;
-use crate::text::name::Name;
+use crate::text::Name;
 
 impl Run<'_, '_> {
     /// Offset of a motion; `None` if only the controller knows it, or if a register turns the tool.
@@ -217,7 +216,7 @@ impl Run<'_, '_> {
                 (position.tool, "UT", "UTOOL_NUM", self.modal.tool),
             ];
             own.into_iter().find_map(|(own, letters, word, now)| {
-                taught_otherwise((number, letters, own?), word, now)
+                taught_otherwise(number, letters, own?, word, now)
             })
         });
         let site = match &position.held {
@@ -329,7 +328,9 @@ impl Run<'_, '_> {
 
 /// Reason and remedy of a position that was taught with a frame or tool (`letters`, `own`) other than the one that may be in force.
 fn taught_otherwise(
-    (position, letters, own): (u32, &str, u32),
+    position: u32,
+    letters: &str,
+    own: u32,
     word: &str,
     now: InForce,
 ) -> Option<EndReason> {

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use crate::interpreter::expression::Expression;
 use crate::ls::expression::{expression_of, indices_of};
+use crate::ls::lines::{Kind, Word, index_of, words_of};
 use crate::ls::table::{Effect, Follows, MOTION_OPTIONS, OFFSET, SKIP};
-use crate::ls::words::{Kind, Word, index_of, words_of};
 use crate::model::motion::{Speed, Zone};
 use crate::model::site::{OffsetAxes, SpeedSite};
 

@@ -1,6 +1,7 @@
 //! Branches and loops on values that only the controller knows: passed over where they neither move the tool nor change modal state.
 
 use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
 
 use crate::interpreter::expression::{Expression, Node};
 use crate::interpreter::value::Datum;
@@ -66,8 +67,8 @@ impl<'p> Run<'_, 'p> {
             let why = why.map_or("it is no truth", |reason| reason);
             let reason = format!("which way the program goes here is not known: {why}");
             match self.reader.options.unknown_targets {
-                UnknownTargets::Refused => self.fault(at, (reason, SET_IT)),
-                UnknownTargets::LeftAsWritten => self.leave(&steps, (open.from, at), &reason),
+                UnknownTargets::Refused => self.fault(at, reason, SET_IT),
+                UnknownTargets::LeftAsWritten => self.leave(&steps, open.from..=at, &reason),
             }
         }
         Flow::To(open.to)
@@ -260,11 +261,11 @@ impl<'p> Run<'_, 'p> {
         self.store(&to, Datum::unknown("it may have changed"));
     }
 
-    /// Leaves the motions of steps as they are written, and what the steps set is not known. Motions from a step back may run again.
-    fn leave(&mut self, steps: &[OpenStep<'_>], (from, until): (usize, usize), reason: &str) {
+    /// Leaves the motions of steps as they are written, and what the steps set is not known. Motions between the lines of a jump back may run again.
+    fn leave(&mut self, steps: &[OpenStep<'_>], between: RangeInclusive<usize>, reason: &str) {
         let lines = &self.all.layouts[self.program()].lines;
         let file = self.program();
-        let between = lines.get(from..=until).unwrap_or_default();
+        let between = lines.get(between).unwrap_or_default();
         if let (Some(first), Some(last)) = (between.first(), between.last()) {
             let between = first.whole.start..last.whole.start;
             for motion in &mut self.motions {
@@ -285,13 +286,13 @@ impl<'p> Run<'_, 'p> {
                             motion.runs = Runs::OnCondition;
                             self.motions.push(motion);
                         }
-                        Err(reason) => self.fault(*at, reason),
+                        Err((reason, remedy)) => self.fault(*at, reason, remedy),
                     }
                     self.calls.pop();
                 }
                 Step::Refused((reason, remedy)) => {
                     self.calls.push(RunningCall::of(*program, Vec::new()));
-                    self.fault(*at, ((*reason).to_owned(), remedy));
+                    self.fault(*at, *reason, remedy);
                     self.calls.pop();
                 }
                 Step::Assign(sides) if self.changes_modal_state(sides) => match &sides[0].node {

@@ -1,17 +1,17 @@
-//! The positions of a program: its section `/POS`.
+//! The positions of a program: its section `/POS`, their arm configurations and their names.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use nalgebra::Vector3;
 
-use crate::ls::configuration::is_configuration;
-use crate::ls::lines::{Fault, number_of};
-use crate::ls::words::index_of;
+use crate::ls::lines::{Fault, index_of, number_of};
+use crate::model::motion::Motion;
 use crate::model::orientation::OrientationText;
 use crate::model::site::{Declaration, DeclarationCopy, PoseText};
 use crate::model::target::{Configuration, PoseTarget};
 use crate::text::number::{NumberText, Width};
+use crate::text::source::SourceFile;
 
 /// Content of a position.
 #[derive(Debug, Clone, PartialEq)]
@@ -312,4 +312,64 @@ impl Parts {
             external,
         }
     }
+}
+
+// Source: FANUC, R-30iB controller, operator's manual (basic operation), chapter 4 "Program structure".
+
+/// Letters of which a configuration has at most one each: wrist, side, elbow, and whether the arm reaches over its back.
+const PAIRS: [[u8; 2]; 4] = [*b"FN", *b"LR", *b"UD", *b"TB"];
+
+/// True if a text is an arm configuration: letters, and the turns of three axes.
+pub(crate) fn is_configuration(text: &str) -> bool {
+    let mut parts = text.split(',');
+    let letters = parts.next().unwrap_or_default().bytes();
+    let letters: Vec<u8> = letters.filter(|byte| *byte != b' ').collect();
+    let pair = |letter: &u8| PAIRS.iter().position(|pair| pair.contains(letter));
+    let pairs: Option<BTreeSet<usize>> = letters.iter().map(pair).collect();
+    let turns: Vec<bool> = parts
+        .map(|part| part.trim().parse::<i8>().is_ok())
+        .collect();
+    // A letter twice, or with its opposite, is one pair.
+    let is_once = pairs.is_some_and(|pairs| pairs.len() == letters.len() && !pairs.is_empty());
+    is_once && turns == [true; 3]
+}
+
+// Names that people give positions: `P[3:"corner"]` in the section `/POS`, `P[3:corner]` in a motion.
+
+/// Number and name in `P[3:"corner"]`, with which a text begins; none without a name.
+fn named(text: &str) -> Option<(u32, &str)> {
+    let inside = text.strip_prefix("P[")?;
+    let end = inside.find(']')?;
+    let (number, name) = inside[..end].split_once(':')?;
+    let name = name.trim().trim_matches('"').trim();
+    Some((number.trim().parse().ok()?, name)).filter(|_| !name.is_empty())
+}
+
+/// The names of the positions of a program.
+pub(crate) fn position_names(source: &SourceFile) -> BTreeMap<u32, String> {
+    let lines = (1..=source.line_count()).filter_map(|line| source.line(line));
+    let heads = lines
+        .map(<[u8]>::trim_ascii)
+        .filter(|line| line.starts_with(b"P[") && line.ends_with(b"{"));
+    let named = heads.filter_map(|line| {
+        let text = String::from_utf8_lossy(line);
+        let (number, name) = named(&text)?;
+        Some((number, name.to_owned()))
+    });
+    named.collect()
+}
+
+/// Name of the end of a motion of a TP program: `P[3]: corner`.
+pub(crate) fn named_end(
+    source: &SourceFile,
+    motion: &Motion,
+    names: &BTreeMap<u32, String>,
+) -> Option<String> {
+    let text = String::from_utf8_lossy(source.part(&motion.site.target_span));
+    if let Some((number, name)) = named(&text) {
+        return Some(format!("P[{number}]: {name}"));
+    }
+    let number = text.strip_prefix("P[")?.split([']', ':']).next()?;
+    let number: u32 = number.trim().parse().ok()?;
+    Some(format!("P[{number}]: {}", names.get(&number)?))
 }

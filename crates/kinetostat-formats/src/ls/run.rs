@@ -1,25 +1,24 @@
-//! A run of TP programs: their data, the programs that run, and the motions so far.
+//! A run of TP programs: their data, the programs that run, the motions so far, and the flat lines that it writes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::Isometry3;
 
-use crate::interpreter::stated::StatedValues;
-use crate::interpreter::value::Datum;
-use crate::ls::flat_lines::FlatLines;
-use crate::ls::found::Reader;
+use crate::error::ProgramError;
+use crate::flat_run::Written;
+use crate::interpreter::value::{Datum, StatedValues};
 use crate::ls::lines::Layout;
 use crate::ls::motion::End;
 use crate::ls::positions::{Held, Positions};
 use crate::ls::program::Program;
 use crate::ls::step::Step;
-use crate::model::findings::unreached_motions;
 use crate::model::motion::{Motion, Runs, mark_repeated};
-use crate::model::outside_call::OutsideCall;
-use crate::model::program::{ENDLESS, RanStatement};
-use crate::model::site::OffsetAxes;
-use crate::text::name::Name;
-use crate::text::source::SourceFile;
+use crate::model::parsed::unreached_motions;
+use crate::model::program::{ENDLESS, OutsideCall, RanStatement};
+use crate::model::site::{Declaration, OffsetAxes};
+use crate::options::ReadOptions;
+use crate::text::Name;
+use crate::text::source::{Finding, SourceFile};
 
 /// The programs of the files.
 pub(super) struct Files<'p> {
@@ -297,7 +296,7 @@ impl<'o, 'p> Run<'o, 'p> {
     }
 
     /// Notes a loop without an end, behind so many motions and statements.
-    pub(super) fn log_endless(&mut self, at: usize, (motions, beside): (usize, usize)) {
+    pub(super) fn log_endless(&mut self, at: usize, motions: usize, beside: usize) {
         self.ran_beside.truncate(beside);
         self.log(at);
         if let Some(last) = self.ran_beside.last_mut() {
@@ -306,7 +305,7 @@ impl<'o, 'p> Run<'o, 'p> {
     }
 
     /// Notes a fault of a step once.
-    pub(super) fn fault(&mut self, at: usize, (reason, remedy): (String, &'static str)) {
+    pub(super) fn fault(&mut self, at: usize, reason: impl Into<String>, remedy: &str) {
         let program = self.program();
         if self.noted.insert((program, at, "fault")) {
             let span = self.all.layouts[program].lines[at].whole.clone();
@@ -321,5 +320,69 @@ impl<'o, 'p> Run<'o, 'p> {
             let line = self.line(at);
             self.reader.finding(program, line, message);
         }
+    }
+}
+
+/// Lines of a flat program, as they are written.
+#[derive(Default)]
+pub(super) struct FlatLines {
+    pub written: Written,
+    /// Lines of programs that are written.
+    pub count: usize,
+    /// They are not those of the first program in its order.
+    pub is_changed: bool,
+    /// New numbers of positions of called programs, by program and own number.
+    pub positions: BTreeMap<(usize, u32), u32>,
+}
+
+impl FlatLines {
+    pub(super) fn is_full(&self) -> bool {
+        self.written.is_full()
+    }
+
+    /// Bytes and lines so far.
+    pub(super) fn extent(&self) -> [usize; 2] {
+        [self.written.bytes.len(), self.written.origins.len()]
+    }
+
+    /// Takes back what was written behind an extent.
+    pub(super) fn cut(&mut self, [bytes, lines]: [usize; 2]) {
+        self.written.bytes.truncate(bytes);
+        self.written.origins.truncate(lines);
+    }
+
+    pub(super) fn line(&mut self, text: &[u8], file: usize, line: usize) {
+        // The writer numbers the lines.
+        self.written
+            .line(&[b"   1:", text, b";"].concat(), file, line);
+    }
+}
+
+/// Results of the programs so far.
+pub(super) struct Reader<'o> {
+    pub options: &'o ReadOptions,
+    pub faults: Vec<ProgramError>,
+    pub findings: Vec<Finding>,
+    pub declarations: Vec<Declaration>,
+}
+
+impl Reader<'_> {
+    pub(super) fn fault(
+        &mut self,
+        file: &SourceFile,
+        span: std::ops::Range<usize>,
+        reason: impl Into<String>,
+        remedy: impl Into<String>,
+    ) {
+        self.faults
+            .push(ProgramError::at(file, span, reason, remedy));
+    }
+
+    pub(super) fn finding(&mut self, file: usize, line: usize, message: impl Into<String>) {
+        self.findings.push(Finding {
+            file,
+            line,
+            message: message.into(),
+        });
     }
 }

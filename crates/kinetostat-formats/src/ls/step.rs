@@ -4,12 +4,12 @@ use std::ops::Range;
 
 use crate::interpreter::expression::{Expression, Node, Operator};
 use crate::ls::expression::{expression_of, indices_of, list_of};
+use crate::ls::lines::{Kind, Word, index_of, words_of};
 use crate::ls::motion::{MotionText, Reason, motion_of};
 use crate::ls::table::row;
-use crate::ls::words::{Kind, Word, index_of, words_of};
 use crate::model::site::OffsetAxes;
 use crate::table::Treatment;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// A call of a program.
 #[derive(Debug, Clone, PartialEq)]

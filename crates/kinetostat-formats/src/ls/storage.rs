@@ -15,7 +15,7 @@ use crate::ls::program::label_of;
 use crate::ls::run::{InForce, Modal, Run};
 use crate::ls::step::FRAME_DATA;
 use crate::model::orientation::OrientationText;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Signals that are on or off.
 const SIGNALS: [&str; 11] = [
@@ -248,7 +248,7 @@ impl Run<'_, '_> {
                 self.given.insert(name);
                 self.values.insert(name, value);
             }
-            _ => self.fault(at, (FRAME_DATA.0.to_owned(), FRAME_DATA.1)),
+            _ => self.fault(at, FRAME_DATA.0, FRAME_DATA.1),
         }
     }
 

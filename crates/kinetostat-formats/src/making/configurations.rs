@@ -1,15 +1,15 @@
 //! Arm configurations of the poses of a source: kept in the same language, reported as lost in another.
 
-use crate::making::fault::MakeFinding;
+use crate::making::MakeFinding;
 use crate::making::limits::MakeLanguage;
 use crate::making::reconfigured::{Switches, changes, text_of};
 use crate::making::step::StatedConfiguration;
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::RobotProgram;
 use crate::model::target::Target;
 use crate::path::of_program::RobotPath;
-use crate::text::line_words::in_words;
+use crate::text::number::in_words;
 
 /// True if a program is made in the language of its source and that language's targets state configurations.
 pub(crate) fn is_same(source: Language, made: MakeLanguage) -> bool {

@@ -2,12 +2,11 @@
 
 use kinetostat_program::Path;
 
-use crate::making::event_kind::EventKind;
-use crate::making::events::SourceEvent;
-use crate::making::fault::MakeFinding;
-use crate::making::numbers::plain;
+use crate::making::MakeFinding;
+use crate::making::events::{EventKind, SourceEvent};
+use crate::making::names::plain;
 use crate::making::step::StatedConfiguration;
-use crate::model::language::Language;
+use crate::model::Language;
 
 /// Numbers of a motion: what acts before it, the motion, and what acts behind it.
 const OF_A_MOTION: usize = 3;

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::making::numbers::{angles, coordinates, short};
+use crate::making::names::{angles, coordinates, short};
 use crate::making::step::Step;
 use crate::making::template::Template;
 use crate::model::orientation::OrientationText;

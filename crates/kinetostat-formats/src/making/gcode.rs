@@ -3,9 +3,9 @@
 use kinetostat_program::SpindleRotation;
 use nalgebra::Vector3;
 
-use crate::making::action::{Coolant, EventAction};
-use crate::making::fault::MakeError;
-use crate::making::numbers::{coordinates, fixed, short};
+use crate::making::MakeError;
+use crate::making::events::{Coolant, EventAction};
+use crate::making::names::{coordinates, fixed, short};
 use crate::making::step::{Step, Way};
 use crate::making::template::Template;
 

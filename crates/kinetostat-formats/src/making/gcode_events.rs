@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 
 use kinetostat_program::{Path, PauseKind};
 
-use crate::making::event_kind::EventKind;
-use crate::making::events::SourceEvent;
+use crate::making::events::{EventKind, SourceEvent};
 use crate::making::words::{InForce, Said, Word, Words, kind_of_m, word_of_m};
 
 /// The events of a program in G-code.

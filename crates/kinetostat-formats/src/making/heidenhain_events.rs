@@ -9,12 +9,9 @@ use crate::heidenhain::blocks::{Block, blocks_of};
 use crate::heidenhain::path_words::has_words;
 use crate::heidenhain::table::{Function, function};
 use crate::heidenhain::words::{Value, Word as Written};
-use crate::making::action::{Coolant, EventAction};
-use crate::making::event_kind::EventKind;
-use crate::making::events::SourceEvent;
-use crate::making::turning::Turning;
-use crate::making::words::{InForce, Said, Word, Words, kind_of_m, word_of_m};
-use crate::text::source::SourceFile;
+use crate::making::events::{Coolant, EventAction, EventKind, SourceEvent};
+use crate::making::words::{InForce, Said, Turning, Word, Words, kind_of_m, word_of_m};
+use crate::text::source::{SourceFile, in_one_line};
 
 /// The events of a file, and where its spindle begins to turn otherwise.
 pub(crate) fn events_of_heidenhain(source: &SourceFile) -> (Vec<SourceEvent>, Vec<SpindleChange>) {
@@ -52,10 +49,10 @@ impl Walk<'_> {
         let words = block.words(bytes);
         let text = self.source.part(&block.text);
         let at = comment_at(text).unwrap_or(text.len());
-        let comment = whole_text(&text[at..]);
+        let comment = in_one_line(&text[at..]);
         let comment = comment.trim_start_matches([';', '*', ' ']);
         let mut said = match words.first() {
-            Some(first) => self.statement(first, &words, whole_text(&text[..at])),
+            Some(first) => self.statement(first, &words, in_one_line(&text[..at])),
             None => Vec::new(),
         };
         if !comment.is_empty() {
@@ -226,7 +223,7 @@ impl Walk<'_> {
     fn text(&self, words: &[Written]) -> String {
         let ends = words.first().zip(words.last());
         let span = ends.map_or(0..0, |(first, last)| first.span.start..last.span.end);
-        whole_text(self.source.part(&span))
+        in_one_line(self.source.part(&span))
     }
 }
 
@@ -267,10 +264,4 @@ fn comment_at(text: &[u8]) -> Option<usize> {
         in_text ^= *byte == b'"';
         *byte == b';' && !in_text
     })
-}
-
-/// Words in one line.
-fn whole_text(bytes: &[u8]) -> String {
-    let text = String::from_utf8_lossy(bytes);
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

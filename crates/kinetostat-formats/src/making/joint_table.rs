@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Quaternion, UnitQuaternion, Vector3};
 
-use crate::model::joint_arm::{BetweenRows, TableArm};
+use crate::model::site::{BetweenRows, TableArm};
 
 /// Decimals of joint values: a thousandth of a billionth of a degree.
 const DECIMALS: usize = 12;

@@ -4,9 +4,8 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::making::action::EventAction;
-use crate::making::names::of_part;
-use crate::making::numbers::{angles, coordinates, short};
+use crate::making::events::EventAction;
+use crate::making::names::{angles, coordinates, of_part, short};
 use crate::making::step::{MadeMotion, Step, Way, parts};
 use crate::making::template::{StatedFrame, StatedTool, Template};
 use crate::model::orientation::OrientationText;

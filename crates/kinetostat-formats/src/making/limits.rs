@@ -2,7 +2,7 @@
 
 use crate::file_form::FileForm;
 use crate::making::template::Template;
-use crate::model::language::Language;
+use crate::model::Language;
 
 /// A language that a program is made in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,20 +5,16 @@ use std::collections::VecDeque;
 use kinetostat_program::{Path, SpindleRotation};
 use nalgebra::Vector3;
 
-use crate::making::action::{Coolant, EventAction};
-use crate::making::again::read_again;
-use crate::making::compare::{Kept, compare};
+use crate::making::compare::{Kept, compare, read_again};
 use crate::making::course::Course;
-use crate::making::events::SourceEvent;
-use crate::making::fault::{MakeError, MakeFinding};
-use crate::making::frames_said::of_frames;
+use crate::making::events::{Coolant, EventAction, SourceEvent};
 use crate::making::limits::MakeLanguage;
-use crate::making::names::{checked, parts_checked};
-use crate::making::numbers::{coordinates, fixed, short};
+use crate::making::names::{checked, coordinates, fixed, parts_checked, short};
 use crate::making::plan::plan;
+use crate::making::stated::of_frames;
 use crate::making::step::{MadeMotion, Step, Way, parts};
 use crate::making::template::{Rapids, Template};
-use crate::making::{csv, gcode, krl, ls, rapid, stated};
+use crate::making::{MakeError, MakeFinding, csv, gcode, krl, ls, rapid, stated};
 
 /// A made program.
 #[derive(Debug, Clone, PartialEq)]
@@ -167,7 +163,8 @@ pub(crate) fn make_along(
         findings.extend(crowded(steps));
     }
     taken_for_granted(
-        (steps, states_configuration),
+        steps,
+        states_configuration,
         template,
         language,
         &kept,
@@ -187,7 +184,8 @@ pub(crate) fn make_along(
 
 /// The defaults that were used, and the rounding that the decimals of the template cause.
 fn taken_for_granted(
-    (steps, states_configuration): (&[Step], bool),
+    steps: &[Step],
+    states_configuration: bool,
     template: &Template,
     language: MakeLanguage,
     kept: &Kept,

@@ -1,26 +1,24 @@
 //! A program of one robot written for another.
 
-use crate::making::dynamics::{dynamics, other_speeds, turning_speeds};
-use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
 use crate::making::make::{Made, make_along};
 use crate::making::of_tools::{faults_at, stated, tools_of_source};
+use crate::making::otherwise::{
+    arcs_from_elsewhere, dynamics, not_once, other_speeds, turning_speeds,
+};
 use crate::making::robot_course::course_of;
-use crate::making::robot_faults::{arcs_from_elsewhere, not_once};
 use crate::making::stated::{is_identity, of_frame};
 use crate::making::template::{StatedFrame, StatedTool, Template};
-use crate::making::{configurations, reconfigured};
-use crate::model::frame::{Frame, FrameUse};
-use crate::model::language::Language;
-use crate::model::motion::{Motion, Zone};
-use crate::model::outside_call::by_name;
-use crate::model::program::RobotProgram;
+use crate::making::{MakeError, MakeFinding, configurations, reconfigured};
+use crate::model::Language;
+use crate::model::motion::{Frame, FrameUse, Motion, Zone};
+use crate::model::program::{RobotProgram, by_name};
 use crate::model::site::TargetSite;
 use crate::path::axis_turns::at_z;
 use crate::path::of_program::RobotPath;
 use crate::path::tools::same_frame;
-use crate::rapid::loads::object_frames;
-use crate::text::name::Name;
+use crate::rapid::literals::object_frames;
+use crate::text::Name;
 
 /// A robot's program in another language, with its work object and its tools where the template states none.
 ///
@@ -152,9 +150,7 @@ pub fn make_of_flat_robot(
         configurations::is_same(program.language, language) && template.configuration.is_none();
     let stated = template.configuration.as_deref();
     made.findings.extend(reconfigured::findings(
-        program,
-        robot,
-        (keeps, stated, language),
+        program, robot, keeps, stated, language,
     ));
     made.findings
         .extend(lost_configurations(program, &template, language));

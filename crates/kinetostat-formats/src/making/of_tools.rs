@@ -2,22 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use crate::krl::loads::tool_loads as loads_of_krl;
+use crate::krl::frames::tool_loads as loads_of_krl;
 use crate::making::course::before_motion;
 use crate::making::events::SourceEvent;
-use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
 use crate::making::stated::{has_own_zero, is_identity, is_mass, of_tool};
 use crate::making::template::{StatedFrame, StatedTool};
-use crate::model::frame::{Frame, FrameUse};
-use crate::model::language::Language;
-use crate::model::motion::Motion;
+use crate::making::{MakeError, MakeFinding};
+use crate::model::Language;
+use crate::model::motion::{Frame, FrameUse, Motion, ToolLoad};
 use crate::model::program::RobotProgram;
-use crate::model::tool_load::ToolLoad;
 use crate::path::of_program::RobotPath;
 use crate::path::tools::{number_in, same_frame, tool_numbers};
-use crate::rapid::loads::tool_loads;
-use crate::text::name::Name;
+use crate::rapid::literals::tool_loads;
+use crate::text::Name;
 
 /// The tools of a made program.
 #[derive(Default)]
@@ -90,10 +88,12 @@ pub(crate) fn tools_of_source(
         }
         made.findings.extend(renamed(
             program,
-            (tool, own),
+            tool,
+            own,
             &stated.frame,
             is_open,
-            (is_one, language),
+            is_one,
+            language,
         ));
         match (is_one || is_open, number) {
             (false, Some(number)) => {
@@ -155,10 +155,12 @@ fn loads_of_source(program: &RobotProgram, language: MakeLanguage) -> BTreeMap<N
 /// Finding on a tool whose number or name differs from the source.
 fn renamed(
     program: &RobotProgram,
-    (tool, own): (&FrameUse, Option<u32>),
+    tool: &FrameUse,
+    own: Option<u32>,
     frame: &StatedFrame,
     is_open: bool,
-    (is_one, language): (bool, MakeLanguage),
+    is_one: bool,
+    language: MakeLanguage,
 ) -> Option<MakeFinding> {
     let number = frame.number.unwrap_or(1);
     let written = match language {
@@ -220,7 +222,8 @@ fn own_number(program: &RobotProgram, tool: &FrameUse) -> Option<u32> {
 pub(crate) fn changes_of_source(
     program: &RobotProgram,
     robot: &RobotPath,
-    (of_moves, events): (&[usize], &[(usize, SourceEvent)]),
+    of_moves: &[usize],
+    events: &[(usize, SourceEvent)],
 ) -> Vec<(usize, u32)> {
     let all = &robot.tools;
     // One tool is changed to where the source has changes of tools.

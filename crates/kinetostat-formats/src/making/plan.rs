@@ -5,22 +5,16 @@ use std::collections::BTreeSet;
 use kinetostat_program::{COMPENSATED_MARK, Knowledge, Move, MoveKind, Path, SpindleRotation};
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::making::action::EventAction;
 use crate::making::course::Course;
-use crate::making::event_kind::EventKind;
-use crate::making::events::SourceEvent;
-use crate::making::fault::{MakeError, MakeFinding};
+use crate::making::events::{EventAction, EventKind, SourceEvent};
 use crate::making::limits::{Limits, MakeLanguage};
-use crate::making::numbers::plain;
-use crate::making::otherwise::{Otherwise, further_axes};
-use crate::making::pieces::{Shape, pieces_of};
-use crate::making::speed_remedy::speed_remedy;
-use crate::making::step::{MadeMotion, Step, Way};
-use crate::making::stops::stops;
+use crate::making::names::plain;
+use crate::making::otherwise::{Otherwise, further_axes, speed_remedy};
+use crate::making::pieces::{Shape, Turned, pieces_of};
+use crate::making::step::{MadeMotion, Step, Way, stops};
 use crate::making::template::{PlacesUnknown, Rapids, Template};
-use crate::making::tool_edges::other_edges;
-use crate::making::tools_told::told;
-use crate::making::turned_pieces::Turned;
+use crate::making::tools_told::{other_edges, told};
+use crate::making::{MakeError, MakeFinding};
 
 /// Steps, and what a person should know of them.
 pub(crate) struct Planned {
@@ -350,8 +344,8 @@ impl Planner<'_> {
         let by_joints = !self.begun || reconfigures;
         let is_joint = by_joints || (rapid && self.template.rapids == Rapids::Joint);
         if !is_joint || pieces.shape != Shape::Line {
-            let law = (self.language, &path.tool_axis);
-            self.turned.divide(motion, &mut pieces, law);
+            let axis = &path.tool_axis;
+            (self.turned).divide(motion, &mut pieces, self.language, axis);
         }
         if let Some(followed) = pieces.followed {
             self.otherwise

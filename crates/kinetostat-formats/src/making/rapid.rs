@@ -6,9 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
-use crate::making::action::EventAction;
-use crate::making::names::{base_name, name_of_tool, of_part};
-use crate::making::numbers::{angles, coordinates, fixed, short};
+use crate::making::events::EventAction;
+use crate::making::names::{angles, base_name, coordinates, fixed, name_of_tool, of_part, short};
 use crate::making::stated::is_number_zero;
 use crate::making::step::{MadeMotion, Step, Way, parts};
 use crate::making::template::Template;

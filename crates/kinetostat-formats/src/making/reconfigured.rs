@@ -2,15 +2,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::making::fault::MakeFinding;
+use crate::making::MakeFinding;
 use crate::making::limits::MakeLanguage;
 use crate::making::routines::{running_lines, words_of};
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::motion::MotionKind;
 use crate::model::program::RobotProgram;
 use crate::model::target::{Configuration, Target};
 use crate::path::of_program::RobotPath;
-use crate::text::line_words::in_words;
+use crate::text::number::in_words;
 
 /// Numbers of the moves of a path that do so: what they state is not what was stated last, or nothing was.
 pub(crate) fn changes(program: &RobotProgram, robot: &RobotPath) -> BTreeSet<usize> {
@@ -69,7 +69,9 @@ fn is_same(language: Language, one: &Configuration, other: &Configuration) -> bo
 pub(crate) fn findings(
     program: &RobotProgram,
     robot: &RobotPath,
-    (is_kept, stated, language): (bool, Option<&str>, MakeLanguage),
+    is_kept: bool,
+    stated: Option<&str>,
+    language: MakeLanguage,
 ) -> Option<MakeFinding> {
     if !language.is_of_an_arm() {
         return None;

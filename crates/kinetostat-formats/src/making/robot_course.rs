@@ -3,13 +3,12 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use crate::making::course::{Course, at, counted_on_lines, place_of};
-use crate::making::event_kind::EventKind;
-use crate::making::events::SourceEvent;
+use crate::making::events::{EventKind, SourceEvent};
+use crate::making::motion_events::comment_behind;
 use crate::making::of_tools::changes_of_source;
 use crate::making::robot_events::events_of_robot;
 use crate::making::routines::{Part, running_lines};
-use crate::making::statements::comment_behind;
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::program::RobotProgram;
 use crate::path::of_program::RobotPath;
 
@@ -21,7 +20,7 @@ pub(crate) fn course_of(program: &RobotProgram, robot: &RobotPath) -> Course {
         let mut events = std::mem::take(&mut course.events);
         events.iter_mut().for_each(|(_, event)| event.only_words());
         let moves = numbers(robot, |line| line);
-        course.tools = changes_of_source(program, robot, (&moves, &events));
+        course.tools = changes_of_source(program, robot, &moves, &events);
         course.events = events;
         course.language = Some(program.language);
         return course;
@@ -49,7 +48,7 @@ pub(crate) fn course_of(program: &RobotProgram, robot: &RobotPath) -> Course {
     placed.sort_by_key(|(order, _)| *order);
     let moves = numbers(robot, |line| order.get(&line).copied().unwrap_or(line));
     Course {
-        tools: changes_of_source(program, robot, (&moves, &placed)),
+        tools: changes_of_source(program, robot, &moves, &placed),
         of_moves: Some(moves),
         events: placed,
         left_out: by_line.into_values().flatten().collect(),

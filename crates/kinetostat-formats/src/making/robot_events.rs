@@ -4,16 +4,14 @@ use std::ops::Range;
 
 use kinetostat_program::SpindleChange;
 
-use crate::making::action::EventAction;
 use crate::making::course::place_of;
-use crate::making::event_kind::EventKind;
-use crate::making::events::SourceEvent;
+use crate::making::events::{EventAction, EventKind, SourceEvent};
 use crate::making::heidenhain_events::events_of_heidenhain;
-use crate::making::motion_events::events_of_motions;
-use crate::making::robot_actions::kind_of;
+use crate::making::motion_events::{
+    comment_behind, events_of_motions, kind_of, of_line, orders_only,
+};
 use crate::making::siemens_events::events_of_siemens;
-use crate::making::statements::{comment_behind, of_line, orders_only};
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::program::RobotProgram;
 use crate::text::source::SourceFile;
 

@@ -5,11 +5,11 @@ use std::ops::Range;
 
 use crate::heidenhain::blocks::{Block as Statement, blocks_of};
 use crate::heidenhain::flow::{Step, labels_of, order, step_of};
+use crate::making::motion_events::statements;
 use crate::making::robot_events::instructions;
-use crate::making::statements::statements;
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::program::RobotProgram;
-use crate::model::slash_blocks::SlashBlocks;
+use crate::model::stated_value::SlashBlocks;
 use crate::siemens::block::{Block, What};
 use crate::siemens::values::{Variables, whole};
 use crate::text::source::SourceFile;

@@ -1,10 +1,10 @@
-//! Steps of a made program.
+//! Steps of a made program, and exact stops of the tool.
 
 use std::ops::Range;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::making::action::EventAction;
+use crate::making::events::{EventAction, EventKind};
 
 /// Path of a made motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,4 +117,25 @@ pub(crate) fn parts(steps: &[Step], most: usize) -> Vec<Range<usize>> {
     }
     parts.push(start..steps.len());
     parts
+}
+
+/// Motions that stop: before a pause and another tool, where rapids and feeds meet, motions by joints and others, and at the end.
+pub(crate) fn stops(steps: &mut [Step]) {
+    let mut next: Option<[bool; 2]> = None;
+    for step in steps.iter_mut().rev() {
+        match step {
+            Step::Motion(motion) => {
+                let own = [motion.rapid, motion.way == Way::Joint];
+                motion.exact |= next != Some(own);
+                next = Some(own);
+            }
+            Step::Action(action) => {
+                if matches!(action.kind(), EventKind::Dwell | EventKind::Stop) {
+                    next = None;
+                }
+            }
+            Step::Tool(_) | Step::Statement(_) => next = None,
+            Step::Note(_) => {}
+        }
+    }
 }

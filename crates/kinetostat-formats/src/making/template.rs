@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use kinetostat_program::SpindleRotation;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
-use crate::making::numbers::short;
+use crate::making::names::short;
 
 /// A base or a tool as the controller knows it, and where it is.
 ///

@@ -3,7 +3,7 @@
 //! A motion takes its external axes along evenly: at a share of the way they have gone that share of theirs.
 
 use crate::error::ProgramError;
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 use crate::model::target::Target;

@@ -10,10 +10,9 @@ use kinetostat_program::{GreatCircle, OffCircle, RotaryAxes, StatedBy, Unreached
 use nalgebra::Vector3;
 
 use crate::model::motion::Motion;
-use crate::model::program::RobotProgram;
-use crate::model::stated_axes::AxesStated;
+use crate::model::program::{AxesStated, RobotProgram};
 use crate::path::axis_turns::{OVER, axis_of};
-use crate::path::fault::PathError;
+use crate::path::{PathError, fault_at};
 
 /// Motion of the rotary axes in one motion of the program.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,7 +75,8 @@ pub(crate) fn axes_of_motions(
             let follows = stated && motion.follows.is_some();
             match of_motion(
                 rotary,
-                (&last, &axis),
+                &last,
+                &axis,
                 follows && on_great_circle(program, index),
             ) {
                 Ok(found) => own = found,
@@ -84,7 +84,7 @@ pub(crate) fn axes_of_motions(
                 Err(reason) => match rotary.angles_towards(&axis, &last) {
                     Ok(angles) if is_rapid(motion) => own.end_deg = angles,
                     _ => {
-                        faults.push(fault(program, motion, (rotary, &axis), reason));
+                        faults.push(fault(program, motion, rotary, &axis, reason));
                         own.end_deg = nearest_of(rotary, &axis, &last);
                     }
                 },
@@ -102,7 +102,8 @@ pub(crate) fn axes_of_motions(
 
 fn of_motion(
     rotary: &RotaryAxes,
-    (last, axis): (&[f64], &Vector3<f64>),
+    last: &[f64],
+    axis: &Vector3<f64>,
     on_circle: bool,
 ) -> Result<AxesOfMotion, OffCircle> {
     if on_circle {
@@ -136,7 +137,8 @@ fn nearest_of(rotary: &RotaryAxes, axis: &Vector3<f64>, last: &[f64]) -> Vec<f64
 fn fault(
     program: &RobotProgram,
     motion: &Motion,
-    (rotary, end): (&RotaryAxes, &Vector3<f64>),
+    rotary: &RotaryAxes,
+    end: &Vector3<f64>,
     reason: OffCircle,
 ) -> PathError {
     let along = |axis: &Vector3<f64>| format!("({:.4}, {:.4}, {:.4})", axis.x, axis.y, axis.z);
@@ -167,15 +169,6 @@ fn fault(
         }
     };
     fault_at(program, motion, reason, remedy)
-}
-
-fn fault_at(program: &RobotProgram, motion: &Motion, reason: String, remedy: &str) -> PathError {
-    PathError {
-        file: program.files[motion.file].name().to_owned(),
-        line: motion.line,
-        reason,
-        remedy: remedy.to_owned(),
-    }
 }
 
 /// Interpolation of the axes between stated angles, and the reason why it is not the required great circle.

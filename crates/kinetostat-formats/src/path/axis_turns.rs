@@ -11,7 +11,7 @@ use crate::model::motion::Motion;
 use crate::model::orientation::OrientationText;
 use crate::model::program::RobotProgram;
 use crate::model::site::TargetSite;
-use crate::path::fault::PathError;
+use crate::path::PathError;
 
 /// Rule for the rotation of the tool about its axis, for programs that state the axis alone.
 ///
@@ -96,8 +96,10 @@ pub(crate) fn first_leaning_in_base(program: &RobotProgram) -> Option<&Motion> {
 /// The orientation that takes the tool's axis to a direction, and a direction of the tool as near as possible to another one; none
 /// where one of these lies along its axis.
 fn standing(
-    (tool_axis, of_tool): (Vector3<f64>, Vector3<f64>),
-    (axis, in_part): (Vector3<f64>, Vector3<f64>),
+    tool_axis: Vector3<f64>,
+    of_tool: Vector3<f64>,
+    axis: Vector3<f64>,
+    in_part: Vector3<f64>,
 ) -> Option<UnitQuaternion<f64>> {
     let frame = |axis: Vector3<f64>, beside: Vector3<f64>| {
         let axis = axis.try_normalize(f64::MIN_POSITIVE)?;
@@ -113,9 +115,8 @@ fn standing(
 
 /// Initial orientation with the tool axis along z of the part.
 pub(crate) fn at_z(tool_axis: Vector3<f64>) -> UnitQuaternion<f64> {
-    let z = (Vector3::z(), Vector3::x());
-    let by_x = standing((tool_axis, Vector3::x()), z);
-    let made = by_x.or_else(|| standing((tool_axis, Vector3::y()), z));
+    let towards_x = |of_tool| standing(tool_axis, of_tool, Vector3::z(), Vector3::x());
+    let made = towards_x(Vector3::x()).or_else(|| towards_x(Vector3::y()));
     made.unwrap_or_default()
 }
 
@@ -138,7 +139,8 @@ fn least(from: &Vector3<f64>, to: &Vector3<f64>) -> Option<UnitQuaternion<f64>> 
 /// `to_path` turns the axes of a motion's work object into those of the path.
 pub(crate) fn axis_turns(
     program: &RobotProgram,
-    (rule, tool_axis): (TurnAboutAxis, Vector3<f64>),
+    rule: TurnAboutAxis,
+    tool_axis: Vector3<f64>,
     to_path: impl Fn(&Motion) -> Isometry3<f64>,
     is_rapid: impl Fn(&Motion) -> bool,
 ) -> Result<Vec<Option<UnitQuaternion<f64>>>, Vec<PathError>> {
@@ -153,7 +155,7 @@ pub(crate) fn axis_turns(
         let frame = to_path(motion).rotation;
         let made = match (rule, last) {
             (TurnAboutAxis::Towards { of_tool, in_part }, _) => {
-                let made = standing((tool_axis, of_tool), (axis, in_part));
+                let made = standing(tool_axis, of_tool, axis, in_part);
                 made.map(|made| frame * made).ok_or(ALONG)
             }
             (TurnAboutAxis::Least, Some(before)) => {

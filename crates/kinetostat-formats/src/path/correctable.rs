@@ -14,13 +14,15 @@ use crate::model::orientation::OrientationText;
 use crate::model::program::RobotProgram;
 use crate::model::site::TargetSite;
 use crate::options::{ReadOptions, WriteOptions};
-use crate::path::fault::broken;
+use crate::path::broken;
 use crate::path::header::{mark_line, with_header};
+use crate::path::kept_lines::ReadProgram;
+use crate::path::maker::PathOptions;
 use crate::path::of_program::{RobotPath, path_of};
-use crate::path::options::PathOptions;
 use crate::path::read_again::check;
-use crate::path::turned_axes::{angles_as_written, angles_of_piece, by_angles, refuse_lost_turn};
-use crate::path::turned_by_correction::refuse_lost_orientation;
+use crate::path::turned_by_correction::{
+    angles_as_written, angles_of_piece, by_angles, refuse_lost_orientation, refuse_lost_turn,
+};
 use crate::text::source::SourceFile;
 use crate::writing::piece::Piece;
 
@@ -395,7 +397,14 @@ impl MachineProgram for Correctable<'_> {
     ) -> Result<Verification, PathWriteError> {
         let files = self.files(written);
         let (program, again) = self.read_again(&files)?;
-        let input = (self.program, self.path);
-        check(input, (&program, &again), written, options)
+        let input = ReadProgram {
+            program: self.program,
+            path: self.path,
+        };
+        let output = ReadProgram {
+            program: &program,
+            path: &again,
+        };
+        check(input, output, written, options)
     }
 }

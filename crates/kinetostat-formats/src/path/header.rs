@@ -2,7 +2,7 @@
 
 use kinetostat_program::{COMPENSATED_MARK, HEADER_PREFIX};
 
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::text::source::SourceFile;
 
 /// Lines in which the mark is looked for.

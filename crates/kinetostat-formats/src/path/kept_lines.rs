@@ -6,17 +6,20 @@ use std::collections::BTreeMap;
 use kinetostat_program::{Corrected, WriteError};
 
 use crate::interpreter::token::TokenFile;
-use crate::krl::folds::folds_of;
-use crate::krl::lex::token_file;
-use crate::model::language::Language;
+use crate::krl::lex::{folds_of, token_file};
+use crate::model::Language;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 use crate::model::site::TargetSite;
-use crate::path::fault::broken;
+use crate::path::broken;
 use crate::path::of_program::RobotPath;
 
 /// A program with its path.
-pub(super) type Read<'a> = (&'a RobotProgram, &'a RobotPath);
+#[derive(Clone, Copy)]
+pub(crate) struct ReadProgram<'a> {
+    pub program: &'a RobotProgram,
+    pub path: &'a RobotPath,
+}
 
 /// A point and the one that it has become, as the pendant shows them: `P1` and `P1_2`.
 type Renamed<'a> = (&'a [u8], &'a [u8]);
@@ -29,17 +32,18 @@ pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
 
 /// Looks for every line of the program in what was written.
 pub(super) fn kept_lines(
-    (program, input): Read<'_>,
-    again: Read<'_>,
+    input: ReadProgram<'_>,
+    again: ReadProgram<'_>,
     written: &Corrected,
 ) -> Result<(), WriteError> {
+    let program = input.program;
     let renamed = match program.language {
-        Language::Krl => renamed_lines((program, input), again, written),
+        Language::Krl => renamed_lines(input, again, written),
         _ => BTreeMap::new(),
     };
     let mut beside = written.beside.iter();
     for (index, file) in program.files.iter().enumerate() {
-        let output: &[u8] = match index == input.file {
+        let output: &[u8] = match index == input.path.file {
             true => &written.bytes,
             false => beside.next().map_or(&[], |(_, bytes)| bytes),
         };
@@ -73,19 +77,27 @@ pub(super) fn kept_lines(
 
 /// Lines (by file, counted from 1) of FOLDs that show points of motions that have got points of their own.
 fn renamed_lines<'a>(
-    (program, input): Read<'a>,
-    (again, output): Read<'a>,
+    input: ReadProgram<'a>,
+    output: ReadProgram<'a>,
     written: &Corrected,
 ) -> BTreeMap<(usize, usize), Vec<Renamed<'a>>> {
     let mut renamed: BTreeMap<(usize, usize), Vec<Renamed<'_>>> = BTreeMap::new();
     // The last piece of a motion is its own statement.
     let own: BTreeMap<usize, usize> = (written.pieces.iter().enumerate())
-        .map(|(index, piece)| (input.motions[piece.move_index], output.motions[index]))
+        .map(|(index, piece)| {
+            (
+                input.path.motions[piece.move_index],
+                output.path.motions[index],
+            )
+        })
         .collect();
     let mut files: BTreeMap<usize, (TokenFile<'_>, Vec<Option<usize>>)> = BTreeMap::new();
     for (before, after) in own {
-        let (before, after) = (&program.motions[before], &again.motions[after]);
-        let points = points(program, before).zip(points(again, after));
+        let (before, after) = (
+            &input.program.motions[before],
+            &output.program.motions[after],
+        );
+        let points = points(input.program, before).zip(points(output.program, after));
         let points: Vec<Renamed<'_>> = points
             .filter(|(old, new)| !old.is_empty() && !new.is_empty() && old != new)
             .collect();
@@ -93,7 +105,7 @@ fn renamed_lines<'a>(
             continue;
         }
         let (tokens, folds) = files.entry(before.file).or_insert_with(|| {
-            let tokens = token_file(before.file, &program.files[before.file]);
+            let tokens = token_file(before.file, &input.program.files[before.file]);
             let folds = folds_of(&tokens);
             (tokens, folds)
         });

@@ -3,17 +3,14 @@
 use kinetostat_program::{Move, Path, Warning};
 use nalgebra::{Isometry3, UnitQuaternion};
 
-use crate::model::frame::FrameUse;
-use crate::model::motion::{Motion, Runs};
-use crate::model::program::RobotProgram;
-use crate::model::stated_axes::AxesStated;
+use crate::model::motion::{FrameUse, Motion, Runs};
+use crate::model::program::{AxesStated, RobotProgram};
 use crate::path::axis_turns::{first_leaning, first_leaning_in_base};
-use crate::path::fault::{PathError, fault_at};
-use crate::path::maker::Maker;
+use crate::path::maker::{Maker, PathOptions};
 use crate::path::motion_faults::{faults_of_motions, has_one_work_object, motions_to_poses};
-use crate::path::options::PathOptions;
 use crate::path::path_warnings::{by_rule, turns_alone, warnings_of};
 use crate::path::tools::{changes, same_frame, tools_of};
+use crate::path::{PathError, fault_at};
 
 /// The path of a robot's program, and in which axes it is.
 ///
@@ -160,7 +157,8 @@ fn path_of_maker(maker: &Maker<'_>) -> Path {
     warnings.dedup_by(|b, a| a.text == b.text);
     let poses = |index: usize| maker.end_in_path(index).map(|pose| pose.translation.vector);
     warnings.extend(warnings_of(
-        (maker.program, maker.options),
+        maker.program,
+        maker.options,
         &moves,
         maker.in_base,
         poses,

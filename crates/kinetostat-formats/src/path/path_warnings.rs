@@ -11,7 +11,7 @@ use crate::model::program::RobotProgram;
 use crate::model::site::TargetSite;
 use crate::path::axis_angles::on_great_circle;
 use crate::path::axis_turns::{ALONG_Z, TurnAboutAxis, axis_of};
-use crate::path::options::PathOptions;
+use crate::path::maker::PathOptions;
 
 /// Number of positions that suffice to judge whether a program is small, ...
 const SEVERAL: usize = 8;
@@ -30,7 +30,8 @@ const NEAR_HALF_A_TURN: f64 = 1.75e-4;
 
 /// Warnings of a path; `place` says where a motion ends.
 pub(crate) fn warnings_of(
-    (program, options): (&RobotProgram, &PathOptions),
+    program: &RobotProgram,
+    options: &PathOptions,
     moves: &[Move],
     in_base: bool,
     place: impl Fn(usize) -> Option<Vector3<f64>>,

@@ -3,12 +3,10 @@
 use kinetostat_program::{
     Corrected, Knowledge, Move, Piece, Verification, WriteError, WriteOptions, irregular,
 };
-
 use nalgebra::UnitQuaternion;
 
-use crate::model::program::RobotProgram;
-use crate::path::fault::broken;
-use crate::path::kept_lines::{Read, kept_lines, lines};
+use crate::path::broken;
+use crate::path::kept_lines::{ReadProgram, kept_lines, lines};
 use crate::path::of_program::RobotPath;
 
 /// Seed of the places that are looked at: neither that of the division nor those of other checks.
@@ -28,11 +26,12 @@ const TURN_BETWEEN: f64 = 1e-4;
 /// - the speed along the part is the programmed one, or slower where it was held;
 /// - lines without a motion or a target of one are there byte for byte, in their order; in FOLDs the names of points may have changed.
 pub(crate) fn check(
-    (program, input): Read<'_>,
-    (output, again): Read<'_>,
+    input: ReadProgram<'_>,
+    output: ReadProgram<'_>,
     written: &Corrected,
     options: &WriteOptions,
 ) -> Result<Verification, WriteError> {
+    let again = output.path;
     let mut found = Verification {
         lines: lines(&written.bytes).count(),
         moves: again.path.moves.len(),
@@ -52,27 +51,22 @@ pub(crate) fn check(
         ));
     }
     for (index, piece) in written.pieces.iter().enumerate() {
-        one(
-            (program, input),
-            again,
-            written,
-            (index, piece),
-            options,
-            &mut found,
-        )?;
+        one(input, again, written, index, piece, options, &mut found)?;
     }
-    kept_lines((program, input), (output, again), written)?;
+    kept_lines(input, output, written)?;
     Ok(found)
 }
 
 fn one(
-    (program, input): (&RobotProgram, &RobotPath),
+    read: ReadProgram<'_>,
     again: &RobotPath,
     written: &Corrected,
-    (index, piece): (usize, &Piece),
+    index: usize,
+    piece: &Piece,
     options: &WriteOptions,
     found: &mut Verification,
 ) -> Result<(), WriteError> {
+    let input = read.path;
     let motion = &input.path.moves[piece.move_index];
     let made = &again.path.moves[index];
     let fail = |what: String| Err(broken(motion.line, made.line, what));
@@ -106,7 +100,7 @@ fn one(
         .as_ref()
         .is_some_and(|turn| turn.rotary.is_some());
     let between = (input.axis_alone || rotary) && motion.known == Knowledge::Whole;
-    if between && !goes_as_stated((input, made), written, (index, piece)) {
+    if between && !goes_as_stated(input, made, written, index, piece) {
         return fail("between its ends the tool stands otherwise than in the program".to_owned());
     }
     if let Some(circle) = &piece.circle {
@@ -143,7 +137,7 @@ fn one(
             found.largest_distance_mm = distance;
         }
     }
-    speed((program, input), again, (index, piece), found).map_or(Ok(()), fail)
+    speed(read, again, index, piece, found).map_or(Ok(()), fail)
 }
 
 /// Orientation at the end of a piece with corrected angles.
@@ -158,9 +152,11 @@ fn turned_to(motion: &Move, written: &Corrected, index: usize) -> Option<UnitQua
 
 /// True if the tool axis moves between the ends of a piece as in the input, apart from the correction at the ends.
 fn goes_as_stated(
-    (input, made): (&RobotPath, &Move),
+    input: &RobotPath,
+    made: &Move,
     written: &Corrected,
-    (index, piece): (usize, &Piece),
+    index: usize,
+    piece: &Piece,
 ) -> bool {
     let motion = &input.path.moves[piece.move_index];
     let tilt = |index: usize| {
@@ -182,12 +178,13 @@ fn goes_as_stated(
 
 /// The speed along the part; what is wrong with it.
 fn speed(
-    (program, input): (&RobotProgram, &RobotPath),
+    input: ReadProgram<'_>,
     again: &RobotPath,
-    (index, piece): (usize, &Piece),
+    index: usize,
+    piece: &Piece,
     found: &mut Verification,
 ) -> Option<String> {
-    let motion = &input.path.moves[piece.move_index];
+    let motion = &input.path.path.moves[piece.move_index];
     let made = &again.path.moves[index];
     let part_mm = motion.length_between_mm(piece.share_from, piece.share_to);
     let written_mm = match piece.kept_arc {
@@ -211,7 +208,7 @@ fn speed(
         found.largest_speed_error = error;
     }
     // A modal speed is that of the input: its deviation along the part is in the result.
-    let own = program.motions[input.motions[piece.move_index]]
+    let own = input.program.motions[input.path.motions[piece.move_index]]
         .site
         .speed
         .is_some();

@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 
 use kinetostat_program::ToolChange;
 
-use crate::model::frame::FrameUse;
-use crate::model::motion::Motion;
+use crate::model::motion::{FrameUse, Motion};
 
 /// The number by which a tool of a program is known: that at the end of its name where it has one that no tool before it has, else the
 /// least one, counted from 1, that is no other tool's.

@@ -5,9 +5,8 @@ use std::ops::Range;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use crate::extreme::larger;
-use crate::model::frame::{Frame, FrameUse};
-use crate::model::joint_arm::{BetweenRows, TableArm};
-use crate::model::site::{JointsText, TargetSite};
+use crate::model::motion::{Frame, FrameUse};
+use crate::model::site::{BetweenRows, JointsText, TableArm, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::ReadOptions;
 use crate::poses::row::{Row, RowTarget};

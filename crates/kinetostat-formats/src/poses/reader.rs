@@ -3,23 +3,19 @@
 use nalgebra::Vector3;
 
 use crate::error::{ProgramError, note};
-use crate::model::frame::FrameUse;
-use crate::model::language::Language;
-use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
+use crate::model::Language;
+use crate::model::motion::{FrameUse, Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
 use crate::model::site::{MotionSite, PoseText, SpeedSite, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::{ExternalAxes, LengthUnit, ReadOptions};
-use crate::poses::csv::{parquet_row, read_table};
-use crate::poses::decimal_comma::{Carrier, with_points};
+use crate::poses::csv::{Carrier, parquet_row, read_table, with_points};
 use crate::poses::joints::{base, between_rows, joint_target};
-use crate::poses::row::{Row, RowTarget, Rows};
-use crate::poses::units::{Reach, mm_of};
+use crate::poses::row::{Reach, Row, RowTarget, Rows, mm_of};
 use crate::poses::yaml::read_yaml;
-use crate::text::finding::Finding;
 use crate::text::number::{Width, values_of};
-use crate::text::source::SourceFile;
+use crate::text::source::{Finding, SourceFile};
 
 const MOST_BYTES: usize = 1 << 28;
 

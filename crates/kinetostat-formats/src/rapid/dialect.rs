@@ -8,31 +8,29 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 use crate::interpreter::expression::{Argument, Expression};
-use crate::interpreter::flow::{Counting, Flow, Leave};
-use crate::interpreter::printing::printed as by_grammar;
 use crate::interpreter::reading::Grammar;
 use crate::interpreter::run::{Dialect, MotionParts};
 use crate::interpreter::token::TokenFile;
-use crate::interpreter::tree::{Change, Choice, DatumNode};
-use crate::interpreter::value::{Datum, Step, Value};
+use crate::interpreter::tree::{Change, Choice, Counting, DatumNode, Flow, Leave};
+use crate::interpreter::value::{Datum, Step, Value, printed as by_grammar};
 use crate::options::ExternalAxes;
-use crate::rapid::arguments::Arguments;
-use crate::rapid::expression;
 use crate::rapid::functions::{CHANGE_THEIRS, computed, is_computed, leaves_arguments};
+use crate::rapid::lex;
+use crate::rapid::lex::Arguments;
 use crate::rapid::literals::{component, list_of_frame};
 use crate::rapid::state::{Modes, Rapid, Run, mode_of};
 use crate::rapid::table::{EXTERNAL, Ends, motion_row, row};
 use crate::table::Treatment;
-use crate::text::name::Name;
+use crate::text::Name;
 
 impl Dialect for Rapid {
     const OWN_COUNTER: bool = true;
     const DECLARES_BY_USE: bool = false;
 
-    const GRAMMAR: &'static Grammar = &expression::GRAMMAR;
+    const GRAMMAR: &'static Grammar = &lex::GRAMMAR;
 
     fn arguments_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Vec<Argument> {
-        expression::arguments_of(file, tokens)
+        lex::arguments_of(file, tokens)
     }
 
     fn component(of: &Datum, name: &Name) -> Option<Step> {
@@ -186,7 +184,7 @@ fn printed(datum: &Datum) -> Option<String> {
             let parts: Option<Vec<String>> = parts.iter().map(printed).collect();
             format!("[{}]", parts?.join(","))
         }
-        _ => return by_grammar(&expression::GRAMMAR, datum),
+        _ => return by_grammar(&lex::GRAMMAR, datum),
     })
 }
 

@@ -8,13 +8,13 @@ use std::ops::Range;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::interpreter::expression::{Argument, Node};
-use crate::interpreter::functions::function;
+use crate::interpreter::operation::function;
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::value::{Datum, Step, Value};
-use crate::model::frame::FrameUse;
+use crate::model::motion::FrameUse;
 use crate::rapid::literals::{frame_of, list_of_frame, orient_of, rotation_of};
 use crate::rapid::state::Run;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// In the order of their bytes; operators that stand before a bracket with them.
 #[rustfmt::skip]

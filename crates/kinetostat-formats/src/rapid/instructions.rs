@@ -3,20 +3,18 @@
 use std::ops::Range;
 
 use crate::interpreter::expression::{Expression, Node};
-use crate::interpreter::flow::Flow;
 use crate::interpreter::symbols::Scope;
 use crate::interpreter::token::Kind;
-use crate::interpreter::tree::Choice;
+use crate::interpreter::tree::{Choice, Flow};
 use crate::interpreter::value::Datum;
 use crate::options::ExternalAxes;
-use crate::rapid::arguments::Arguments;
-use crate::rapid::expression::{arguments_of, expression_of};
 use crate::rapid::functions::{CHANGE_THEIRS, is_computed};
+use crate::rapid::lex::{Arguments, arguments_of, expression_of};
 use crate::rapid::literals::frame_of;
 use crate::rapid::state::{Run, mode_of};
 use crate::rapid::table::{EXTERNAL, MotionRow, motion_row, row};
 use crate::table::Treatment;
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Statements that leave the path as it is, and change what deflection depends on.
 const EFFECTS: [(&str, &str); 4] = [

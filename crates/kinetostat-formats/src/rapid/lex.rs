@@ -1,14 +1,18 @@
-//! Tokens of a file with their places; blanks, comments and the header `%%%` are none.
+//! Tokens of a file with their places (blanks, comments and the header `%%%` are none), and their expressions.
 //!
 //! The lexer never fails: a byte that begins nothing known is a token of its own, and the parser says what is wrong.
 
-use winnow::ascii::{digit0, digit1};
+use std::ops::Range;
+
 use winnow::combinator::{alt, opt};
 use winnow::prelude::*;
 use winnow::stream::LocatingSlice;
-use winnow::token::{any, one_of, take_till, take_while};
+use winnow::token::{any, take_till, take_while};
 
-use crate::interpreter::token::{Kind, Token};
+use crate::interpreter::expression::{Argument, Expression, Operator};
+use crate::interpreter::reading::{self, Grammar};
+use crate::interpreter::token::{Kind, Token, TokenFile, number_literal};
+use crate::text::Name;
 use crate::text::source::BYTE_ORDER_MARK;
 
 type Input<'i> = LocatingSlice<&'i [u8]>;
@@ -56,7 +60,7 @@ fn token(input: &mut Input<'_>) -> Result<Option<Kind>, Nothing> {
     match first {
         b' ' | b'\t' | b'\r' | b'\n' | 0x0b | 0x0c | END_OF_FILE => blank(input).map(|()| None),
         b'!' => take_till(0.., b'\n').value(None).parse_next(input),
-        b'0'..=b'9' | b'.' => alt((number.value(Kind::Number), symbol))
+        b'0'..=b'9' | b'.' => alt((number_literal.value(Kind::Number), symbol))
             .map(Some)
             .parse_next(input),
         // Each module has its own header where the files of a program are read as one.
@@ -93,12 +97,6 @@ fn is_part(byte: u8) -> bool {
     is_letter(byte) || byte.is_ascii_digit()
 }
 
-fn number(input: &mut Input<'_>) -> Result<(), Nothing> {
-    let mantissa = alt(((digit1, opt((b'.', digit0))).void(), (b'.', digit1).void()));
-    let exponent = (one_of([b'e', b'E']), opt(one_of([b'+', b'-'])), digit1);
-    (mantissa, opt(exponent)).void().parse_next(input)
-}
-
 /// A quote inside is written twice.
 fn text(input: &mut Input<'_>) -> Result<Kind, Nothing> {
     any.void().parse_next(input)?;
@@ -109,5 +107,78 @@ fn text(input: &mut Input<'_>) -> Result<Kind, Nothing> {
             Some(_) if opt(b'"').parse_next(input)?.is_none() => return Ok(Kind::Text),
             Some(_) => {}
         }
+    }
+}
+
+/// Source: ABB, Technical reference manual - RAPID kernel, Priority between operators.
+pub(super) const GRAMMAR: Grammar = Grammar {
+    operators: &[
+        ("OR", Operator::Or, 0),
+        ("XOR", Operator::Xor, 0),
+        ("AND", Operator::And, 1),
+        ("<>", Operator::Unequal, 2),
+        ("<=", Operator::LessOrEqual, 2),
+        (">=", Operator::GreaterOrEqual, 2),
+        ("<", Operator::Less, 2),
+        (">", Operator::Greater, 2),
+        ("=", Operator::Equal, 2),
+        ("+", Operator::Plus, 3),
+        ("-", Operator::Minus, 3),
+        ("DIV", Operator::WholeQuotient, 4),
+        ("MOD", Operator::Remainder, 4),
+        ("*", Operator::Times, 4),
+        ("/", Operator::Over, 4),
+    ],
+    not: 1,
+    sign: 5,
+    index: [b'{', b'}'],
+    list: Some([b'[', b']']),
+    has_members: false,
+    names_arguments: false,
+    counts_from_one: true,
+    truths: ["FALSE", "TRUE"],
+    aggregate: None,
+    separates_comparisons: false,
+};
+
+/// The expression that tokens are.
+pub(crate) fn expression_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Expression {
+    reading::expression_of(&GRAMMAR, file, tokens)
+}
+
+/// The arguments of a call between two tokens.
+pub(crate) fn arguments_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Vec<Argument> {
+    reading::arguments_of(&GRAMMAR, file, tokens)
+}
+
+/// The arguments of one instruction.
+pub(crate) struct Arguments {
+    /// Arguments without a backslash.
+    pub ordered: Vec<Expression>,
+    /// Optional arguments, with a backslash.
+    pub options: Vec<(Name, Option<Expression>)>,
+}
+
+impl Arguments {
+    /// Arguments in the tokens after an instruction's name.
+    pub(crate) fn of(file: &TokenFile<'_>, tokens: Range<usize>) -> Self {
+        let mut all = Self {
+            ordered: Vec::with_capacity(6),
+            options: Vec::new(),
+        };
+        for Argument { option, value } in arguments_of(file, tokens) {
+            match (option, value) {
+                (Some(name), value) => all.options.push((name, value)),
+                (None, Some(value)) => all.ordered.push(value),
+                (None, None) => {}
+            }
+        }
+        all
+    }
+
+    /// An option by its name in capitals; what it is given, if anything.
+    pub(crate) fn option(&self, capitals: &str) -> Option<Option<&Expression>> {
+        let found = self.options.iter().find(|(name, _)| name.is(capitals));
+        found.map(|(_, value)| value.as_ref())
     }
 }

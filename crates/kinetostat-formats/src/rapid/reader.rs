@@ -5,16 +5,15 @@ use crate::interpreter::flat::flat_of;
 use crate::interpreter::symbols::Symbols;
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::{LoopKind, Module, Statement};
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::parsed::{Parsed, Read};
 use crate::model::program::RobotProgram;
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::rapid::lex::tokens_of;
 use crate::rapid::parser::modules::modules_of;
 use crate::rapid::state::Rapid;
-use crate::text::flat::FlatText;
-use crate::text::name::Name;
-use crate::text::source::SourceFile;
+use crate::text::Name;
+use crate::text::source::{FlatText, SourceFile};
 
 /// Limit of the bytes of a file; the memory needed is some twenty times as much.
 const MOST_BYTES: usize = 1 << 26;

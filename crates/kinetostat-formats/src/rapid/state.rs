@@ -15,12 +15,11 @@ use crate::interpreter::run;
 use crate::interpreter::symbols::Symbols;
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::value::Datum;
-use crate::model::frame::FrameUse;
-use crate::model::motion::{Motion, MotionKind};
+use crate::model::motion::{FrameUse, Motion, MotionKind};
 use crate::model::site::TurnsOtherwise;
 use crate::options::ReadOptions;
-use crate::rapid::arguments::Arguments;
-use crate::text::name::Name;
+use crate::rapid::lex::Arguments;
+use crate::text::Name;
 
 /// A run of a RAPID program.
 pub(crate) type Run<'r, 'p> = run::Run<'r, 'p, Rapid>;

@@ -2,7 +2,7 @@
 
 use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{Alike, StatementRow, Treatment, alike, count, line, row_of, rows, sorted};
-use crate::text::name::Name;
+use crate::text::Name;
 
 const KERNEL: &str = "ABB, Technical reference manual - RAPID kernel";
 const INSTRUCTIONS: &str =

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::interpreter::declared::Around;
+use crate::interpreter::ends::Around;
 use crate::interpreter::expression::{Argument, Expression, Node};
 use crate::interpreter::run::Reason;
 use crate::interpreter::value::Datum;
@@ -10,7 +10,7 @@ use crate::model::site::{OffsetAxes, PartText, PoseText, ReplacedText, TargetSit
 use crate::model::target::PoseTarget;
 use crate::rapid::literals::{numbers_in, pose_of, text_of};
 use crate::rapid::state::Run;
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::number::NumberText;
 
 /// An end that is known.
@@ -54,7 +54,7 @@ impl Run<'_, '_> {
             }
             _ => (reason, WRITE_IT),
         })?;
-        let site = self.site(expression, (&value, &pose), statement);
+        let site = self.site(expression, &value, &pose, statement);
         Ok(Found { pose, site })
     }
 
@@ -62,7 +62,8 @@ impl Run<'_, '_> {
     fn site(
         &mut self,
         expression: &Expression,
-        (value, pose): (&Datum, &PoseTarget),
+        value: &Datum,
+        pose: &PoseTarget,
         statement: &Range<usize>,
     ) -> TargetSite {
         let file = self.file();

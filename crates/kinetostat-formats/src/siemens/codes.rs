@@ -3,12 +3,11 @@
 use crate::options::CutterCompensation;
 use crate::siemens::block::{Item, What};
 use crate::siemens::expression::Expression;
-use crate::siemens::frames::Change;
 use crate::siemens::state::{Angles, Code, FeedMode};
 use crate::siemens::table::row;
 use crate::siemens::values::whole;
 use crate::siemens::walker::Reader;
-use crate::siemens::words::{Purpose, Words};
+use crate::siemens::words::{Change, Purpose, Words};
 use crate::table::Treatment;
 
 /// Words that are understood and have no value.
@@ -74,7 +73,7 @@ impl Reader<'_> {
         }
         words.code = Some(item.span.clone());
         self.state.code = code;
-        self.state.code_stated = true;
+        self.state.stated.code = true;
     }
 
     fn g_code(&mut self, number: u32, item: &Item, words: &mut Words) {

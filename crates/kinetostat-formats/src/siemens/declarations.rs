@@ -99,12 +99,10 @@ pub(crate) fn define(
         if cursor.takes(b'=') {
             let span = cursor.place();
             let value = cursor.expression()?;
-            begin_with(&mut made, &value, (bytes, variables)).map_err(|(reason, remedy)| {
-                Broken {
-                    span,
-                    reason,
-                    remedy,
-                }
+            begin_with(&mut made, &value, bytes, variables).map_err(|(reason, remedy)| Broken {
+                span,
+                reason,
+                remedy,
             })?;
         }
         variables.own.insert(name, made);
@@ -128,7 +126,8 @@ pub(crate) fn define(
 fn begin_with(
     made: &mut Variable,
     value: &Expression,
-    (bytes, variables): (&[u8], &Variables),
+    bytes: &[u8],
+    variables: &Variables,
 ) -> Result<(), (&'static str, &'static str)> {
     let is = |name: &std::ops::Range<usize>, word: &str| {
         bytes

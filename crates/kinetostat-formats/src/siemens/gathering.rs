@@ -3,11 +3,11 @@
 use std::ops::Range;
 
 use crate::corner::Cut;
-use crate::siemens::axes_beside::OTHER_AXES;
 use crate::siemens::block::{Block, How, Item, What};
 use crate::siemens::expression::Expression;
 use crate::siemens::state::Feed;
 use crate::siemens::table::row;
+use crate::siemens::turned_axes::OTHER_AXES;
 use crate::siemens::values::{Value, whole};
 use crate::siemens::walker::{Corners, Reader};
 use crate::siemens::words::{Group, Purpose, Words, coordinate, coordinate_of};
@@ -52,9 +52,9 @@ impl Reader<'_> {
                     );
                 }
                 if let Some((group, axis)) = coordinate(&name) {
-                    return self.coordinate(item, (group, axis), *how, value, words);
+                    return self.coordinate(item, group, axis, *how, value, words);
                 }
-                self.other_word(&name, item, (value, span), *how, words);
+                self.other_word(&name, item, value, span, *how, words);
             }
         }
     }
@@ -125,7 +125,8 @@ impl Reader<'_> {
     fn coordinate(
         &mut self,
         item: &Item,
-        (group, axis): (Group, usize),
+        group: Group,
+        axis: usize,
         how: How,
         value: &Expression,
         words: &mut Words,
@@ -183,14 +184,15 @@ impl Reader<'_> {
         &mut self,
         name: &str,
         item: &Item,
-        (value, span): (&Expression, &Range<usize>),
+        value: &Expression,
+        span: &Range<usize>,
         how: How,
         words: &mut Words,
     ) {
         let first = name.bytes().next().unwrap_or_default();
         let numbered = name.len() > 1 && name[1..].bytes().all(|byte| byte.is_ascii_digit());
         if let (1, Some(place)) = (name.len(), self.state.standing.place_of_letter(first)) {
-            return self.rotary_word(item, (place, how), value, words);
+            return self.rotary_word(item, place, how, value, words);
         }
         match name {
             "G" => {}
@@ -205,7 +207,7 @@ impl Reader<'_> {
                 } else if let Some(value) = self.number(&item.span, value) {
                     let text = String::from_utf8_lossy(self.file.part(&item.span)).into_owned();
                     self.state.feed = Some(Feed { value, text });
-                    self.state.feed_stated = true;
+                    self.state.stated.feed = true;
                 }
             }
             "T" => self.tool(item, value),

@@ -1,20 +1,18 @@
 //! Facts and acts of SINUMERIK programs that files outside this folder ask for.
 
 use crate::error::WriteError;
+use crate::flat_run::RefusedRun;
 use crate::model::parsed::Parsed;
 use crate::model::program::RobotProgram;
 use crate::options::{ReadOptions, WriteOptions};
-use crate::program_language::SPEED_REMEDY_OF_BLOCKS;
-use crate::program_language::{ProgramLanguage, WrittenFile, with_ending};
-use crate::refused_run::RefusedRun;
+use crate::program_language::{ProgramLanguage, SPEED_REMEDY_OF_BLOCKS, WrittenFile, with_ending};
 use crate::siemens::called::called;
 use crate::siemens::flat::run_or_refused;
 use crate::siemens::reader::parse_siemens;
 use crate::siemens::table::{MODES, SIEMENS_STATEMENTS};
 use crate::siemens::writing::write::write_siemens;
 use crate::table::StatementRow;
-use crate::text::flat::FlatText;
-use crate::text::source::SourceFile;
+use crate::text::source::{FlatText, SourceFile};
 use crate::writing::piece::Piece;
 
 /// SINUMERIK 840D.

@@ -4,14 +4,13 @@ use std::ops::Range;
 
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 
-use crate::model::frame::FrameUse;
-use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
+use crate::model::motion::{FrameUse, Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::orientation::OrientationText;
 use crate::model::site::{MotionSite, PoseText, SpeedSite, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::UnknownTargets;
 use crate::siemens::block::Block;
-use crate::siemens::state::{Code, FeedMode};
+use crate::siemens::state::{Code, FeedMode, StatedModes};
 use crate::siemens::walker::{Reader, Written};
 use crate::siemens::words::{Purpose, Words};
 use crate::text::number::{NumberText, Width};
@@ -40,7 +39,7 @@ impl Reader<'_> {
         &mut self,
         block: &Block,
         words: &Words,
-        stated: (bool, bool),
+        stated: StatedModes,
         end: [Option<f64>; 3],
         reason: &str,
     ) {
@@ -69,7 +68,7 @@ impl Reader<'_> {
         &mut self,
         block: &Block,
         words: &Words,
-        (code_stated, feed_stated): (bool, bool),
+        stated: StatedModes,
         known: Option<Known>,
         end: [Option<f64>; 3],
         reason: &str,
@@ -79,7 +78,7 @@ impl Reader<'_> {
         let speed = self.speed_in_force();
         let anchor = behind_axes(block, words);
         let (kind, target, site) = match known {
-            Some(known) => self.known_end((words, anchor), known, follows),
+            Some(known) => self.known_end(words, anchor, known, follows),
             None => {
                 let reason = reason.to_owned();
                 let site = TargetSite::Fixed("its end or its way is not known");
@@ -100,18 +99,17 @@ impl Reader<'_> {
             work_object: self.frame_use(&state.work_object),
             runs: Runs::Once,
             follows,
-            site: site_of((block, words), anchor, site, &speed),
+            site: site_of(block, words, anchor, site, &speed),
             speed,
         };
-        let written = self.as_written(block, words, (code_stated, feed_stated), end);
+        let written = self.as_written(block, words, stated, end);
         self.note_axes(&block.span);
         self.out.motions.push(motion);
         self.out.written.push(written);
         self.count_from(words, end);
         self.state.place = end;
         self.state.last = Some(self.out.motions.len() - 1);
-        self.state.code_stated = false;
-        self.state.feed_stated = false;
+        self.state.stated = StatedModes::default();
         if self.state.known_place().is_some() {
             self.state.lost = false;
         }
@@ -139,7 +137,8 @@ impl Reader<'_> {
     /// An end that is known, with its numbers, behind the motion that it follows.
     fn known_end(
         &self,
-        (words, anchor): (&Words, usize),
+        words: &Words,
+        anchor: usize,
         Known { kind, end }: Known,
         follows: Option<usize>,
     ) -> (MotionKind, Target, TargetSite) {
@@ -160,7 +159,7 @@ impl Reader<'_> {
         &self,
         block: &Block,
         words: &Words,
-        (code_stated, feed_stated): (bool, bool),
+        stated: StatedModes,
         end: [Option<f64>; 3],
     ) -> Written {
         let state = &self.state;
@@ -175,10 +174,9 @@ impl Reader<'_> {
             at_end: words.at_end.clone(),
             code: state.code,
             code_word: words.code.clone(),
-            code_stated,
             feed: state.feed.clone(),
             feed_word: words.feed.clone(),
-            feed_stated,
+            stated,
             frame: state.frame,
             unit_mm: state.unit_mm,
             start: state.place,
@@ -243,7 +241,8 @@ pub(crate) fn behind_axes(block: &Block, words: &Words) -> usize {
 
 /// Positions of the parts of a motion in its block.
 fn site_of(
-    (block, words): (&Block, &Words),
+    block: &Block,
+    words: &Words,
     anchor: usize,
     target: TargetSite,
     speed: &Speed,

@@ -182,10 +182,16 @@ pub(crate) struct State {
     pub ended: bool,
     /// Something was refused: what follows from it is not reported again.
     pub lost: bool,
-    /// A code of motion was stated since the last motion.
-    pub code_stated: bool,
-    /// A feed was stated since the last motion.
-    pub feed_stated: bool,
+    /// Words that were stated since the last motion.
+    pub stated: StatedModes,
+}
+
+/// Modal words that the blocks between two motions state.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct StatedModes {
+    /// A code of motion.
+    pub code: bool,
+    pub feed: bool,
 }
 
 impl State {

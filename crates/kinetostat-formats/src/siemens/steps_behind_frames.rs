@@ -9,8 +9,8 @@
 use crate::siemens::state::{Counted, NO_SHIFT_MM};
 use crate::siemens::walker::Reader;
 use crate::siemens::words::Words;
-use crate::text::finding::Finding;
-use crate::text::line_words::in_words;
+use crate::text::number::in_words;
+use crate::text::source::Finding;
 
 /// Turn of a frame that is none, rad.
 const NO_TURN: f64 = 1e-9;

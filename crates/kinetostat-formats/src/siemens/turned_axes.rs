@@ -1,13 +1,14 @@
-//! Rotary axes whose words are followed: A, B, C of the machine's model.
+//! Rotary axes whose words are followed (A, B, C of the machine's model), and axes beside X, Y and Z that may stand and not move.
 
 use std::ops::Range;
 
-use crate::model::stated_axes::AxesStated;
+use crate::model::program::AxesStated;
 use crate::siemens::block::{Block, How, Item};
 use crate::siemens::expression::Expression;
 use crate::siemens::state::{Code, Coordinate};
-use crate::siemens::walker::Reader;
+use crate::siemens::walker::{PlainTurn, Reader};
 use crate::siemens::words::{Purpose, Words, coordinate_of};
+use crate::text::source::Finding;
 use crate::turned_axis::{AxisTurn, TipWords, Turning};
 
 const TIP: TipWords = TipWords {
@@ -23,7 +24,8 @@ impl Reader<'_> {
     pub(crate) fn rotary_word(
         &mut self,
         item: &Item,
-        (place, how): (usize, How),
+        place: usize,
+        how: How,
         value: &Expression,
         words: &mut Words,
     ) {
@@ -133,5 +135,115 @@ impl Reader<'_> {
             );
         }
         self.out.rotary.motions.insert(index, stated);
+    }
+}
+
+// Angles of modulo axes without AC or DC, which a setting of the machine takes one way or the other.
+//
+// Source: Siemens, SINUMERIK 840D sl, machine data lists, MD30455 $MA_MISC_FUNCTION_MASK: with bit 2 a modulo rotary axis that is programmed
+// under G90 goes to its angle as with DC; without it, as with AC.
+
+/// Limit of the other lines that a finding names.
+const MOST_NAMED: usize = 20;
+
+impl Reader<'_> {
+    /// Notes a word that turns an axis in a cut, where it matters what the machine takes it for.
+    pub(crate) fn note_plain_turn(&mut self, place: usize, word: &Coordinate, to: f64) {
+        let letter = self.options.rotary_axes.get(place).copied();
+        let readings = self.state.standing.readings_of(place, to);
+        if let (Some(letter), Some(readings)) = (letter, readings) {
+            let line = self.file.line_of(word.whole.start);
+            self.out.plain_turns.push(PlainTurn {
+                line,
+                letter,
+                to,
+                readings,
+            });
+        }
+    }
+}
+
+/// Finding on the plain turns of a file, at the first of them.
+pub(crate) fn finding_of(file: usize, turns: &[PlainTurn]) -> Option<Finding> {
+    let (first, others) = turns.split_first()?;
+    let PlainTurn { letter, to, .. } = first;
+    let [on, shorter] = (first.readings).map(|angle| (angle * 1e5).round() / 1e5);
+    let mut lines: Vec<usize> = others.iter().map(|turn| turn.line).collect();
+    lines.retain(|line| *line != first.line);
+    lines.dedup();
+    let named = lines.iter().take(MOST_NAMED).map(usize::to_string);
+    let named = named.collect::<Vec<_>>().join(", ");
+    let further = match lines.len() {
+        0 => String::new(),
+        1 => format!("; so in line {named}"),
+        count @ ..=MOST_NAMED => format!("; so in {count} further lines: {named}"),
+        count => format!("; so in {count} further lines: {named} ..."),
+    };
+    Some(Finding {
+        file,
+        line: first.line,
+        message: format!(
+            "axis {letter} is sent to {to} deg by a word without AC or DC, and how far it turns is a setting of the machine: it is taken as AC here, the basic setting, and turns by {on} deg; where bit 2 of MD30455 makes it DC, it turns by {shorter} deg. Write {letter}=AC({to}) or {letter}=DC({to}){further}"
+        ),
+    })
+}
+
+// Axes beside X, Y and Z: they may stand, and not move; those that turn stand at zero alone.
+
+/// Letters of axes beside X, Y and Z.
+pub(crate) const OTHER_AXES: &[u8] = b"ABCUVWQE";
+
+impl Reader<'_> {
+    /// An axis beside X, Y, Z: it may stand, and not move.
+    pub(crate) fn other_axis(
+        &mut self,
+        name: &str,
+        item: &Item,
+        value: f64,
+        how: How,
+        purpose: Purpose,
+    ) {
+        let steps = how == How::Step || how == How::Modal && self.state.steps;
+        let code = self.state.code;
+        let turns = matches!(name, "A" | "B" | "C");
+        let axis = self
+            .state
+            .others
+            .entry(name.as_bytes().to_vec())
+            .or_default();
+        match (purpose, axis.at) {
+            (Purpose::Machine, _) => axis.elsewhere = true,
+            (_, _) if steps && value == 0.0 => {}
+            // From wherever it stands, beside a motion of the tool; and turned, whether by a rapid or not.
+            (Purpose::Motion, None) if !steps && value != 0.0 && (turns || code != Code::Rapid) => {
+                axis.at = Some(value);
+                self.moves_aside(name, item);
+            }
+            (_, None) if !steps => {
+                axis.at = Some(value);
+                axis.elsewhere = false;
+                if value != 0.0 {
+                    self.finding(
+                        &item.span,
+                        format!("{name} stands at {value}: the part is taken to lie as the frame in force says then"),
+                    );
+                }
+            }
+            (_, Some(at)) if !steps && at == value => axis.elsewhere = false,
+            _ => {
+                // All that follows stands there.
+                axis.at = (!steps).then_some(value);
+                axis.elsewhere = false;
+                self.moves_aside(name, item);
+            }
+        }
+    }
+
+    fn moves_aside(&mut self, name: &str, item: &Item) {
+        self.fault(
+            &item.span,
+            format!("the axis {name} moves: where the tool stands on the part then, needs the kinematics of the machine"),
+            "give the parts of the program between such motions one by one, or describe the axis in the model ([[rotary_axis]]), if it is one of A, B, C that turns",
+        );
     }
 }

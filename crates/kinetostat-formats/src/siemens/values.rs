@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::interpreter::expression::Operator;
-use crate::interpreter::functions::function;
+use crate::interpreter::operation::function;
 use crate::model::stated_value::StatedValue;
 use crate::options::ReadOptions;
 use crate::siemens::expression::Expression;

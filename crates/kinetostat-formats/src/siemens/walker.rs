@@ -5,20 +5,18 @@ use std::ops::Range;
 
 use nalgebra::{Isometry3, Vector3};
 
-use crate::axis_count::CountShown;
 use crate::corner::Cut;
 use crate::error::{ProgramError, note};
 use crate::model::motion::Motion;
-use crate::model::outside_call::OutsideCall;
-use crate::model::stated_axes::StatedAxes;
+use crate::model::program::{OutsideCall, StatedAxes};
 use crate::options::ReadOptions;
 use crate::siemens::block::How;
 use crate::siemens::expression::Expression;
-use crate::siemens::state::{Angles, Code, Coordinate, Feed, NO_SHIFT_MM, State};
+use crate::siemens::state::{Angles, Code, Coordinate, Feed, NO_SHIFT_MM, State, StatedModes};
 use crate::siemens::tokens::Broken;
 use crate::siemens::values::Variables;
-use crate::text::finding::Finding;
-use crate::text::source::SourceFile;
+use crate::text::source::{Finding, SourceFile};
+use crate::turned_axis::CountShown;
 
 /// Result of the scan of a program's files.
 #[derive(Debug, Default)]
@@ -73,12 +71,11 @@ pub(crate) struct Written {
     pub at_end: Vec<Range<usize>>,
     pub code: Code,
     pub code_word: Option<Range<usize>>,
-    /// A code was stated in a block between the motion before and this one.
-    pub code_stated: bool,
     /// The feed in force, if it is known, as written.
     pub feed: Option<Feed>,
     pub feed_word: Option<(Range<usize>, Option<Range<usize>>)>,
-    pub feed_stated: bool,
+    /// Words that were stated in blocks between the motion before and this one.
+    pub stated: StatedModes,
     /// Transformation from the axes of its numbers to those of the part.
     pub frame: Isometry3<f64>,
     pub unit_mm: f64,

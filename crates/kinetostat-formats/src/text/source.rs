@@ -1,4 +1,4 @@
-//! A file of a program: its name, its bytes, where its lines begin.
+//! Texts of programs: a file with its lines, its replaced ranges, findings on it, and the text of a program that was run once and written flat.
 
 use std::ops::Range;
 
@@ -15,6 +15,18 @@ pub(crate) fn beginning(bytes: &[u8]) -> usize {
         true => BYTE_ORDER_MARK.len(),
         false => 0,
     }
+}
+
+/// Start of the line after that of a byte.
+pub(crate) fn next_line(bytes: &[u8], at: usize) -> usize {
+    let end = bytes[at..].iter().position(|byte| *byte == b'\n');
+    end.map_or(bytes.len(), |end| at + end + 1)
+}
+
+/// The words of a text in one line.
+pub(crate) fn in_one_line(bytes: &[u8]) -> String {
+    let text = String::from_utf8_lossy(bytes);
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// A file of a program as it was read; nothing in it is ever changed.
@@ -123,4 +135,105 @@ impl SourceFile {
         let before = at.saturating_sub(self.range_of(self.line_of(at)).start);
         &blanks[..before.min(blanks.len())]
     }
+}
+
+// Replaced and inserted ranges of a file; what lies between comes back byte for byte.
+
+/// Replacements in one text. An empty range inserts.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Edits(Vec<(Range<usize>, Vec<u8>)>);
+
+impl Edits {
+    /// Puts `bytes` in place of a range. Ranges must not overlap; insertions at one place keep their order.
+    pub(crate) fn replace(&mut self, span: Range<usize>, bytes: impl Into<Vec<u8>>) {
+        self.0.push((span, bytes.into()));
+    }
+
+    /// True if nothing is to be replaced.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// True where a byte of a range is replaced.
+    pub(crate) fn touches(&self, span: &Range<usize>) -> bool {
+        let mut all = self.0.iter();
+        all.any(|(own, _)| own.start < span.end && span.start < own.end)
+    }
+
+    /// Adds those of another.
+    pub(crate) fn append(&mut self, mut other: Self) {
+        self.0.append(&mut other.0);
+    }
+
+    /// The text with all replacements; `None` where two overlap or one lies outside.
+    pub(crate) fn applied_to(mut self, text: &[u8]) -> Option<Vec<u8>> {
+        self.0.sort_by_key(|(span, _)| (span.start, span.end));
+        let added: usize = self.0.iter().map(|(_, bytes)| bytes.len()).sum();
+        let mut output = Vec::with_capacity(text.len() + added);
+        let mut at = 0;
+        for (span, bytes) in &self.0 {
+            output.extend_from_slice(text.get(at..span.start)?);
+            output.extend_from_slice(bytes);
+            at = span.end;
+        }
+        output.extend_from_slice(text.get(at..)?);
+        Some(output)
+    }
+
+    /// Edits of a part of the text, relative to that part: for a copy of a statement.
+    pub(crate) fn applied_to_part(self, text: &[u8], part: &Range<usize>) -> Option<Vec<u8>> {
+        let moved = |(span, bytes): (Range<usize>, Vec<u8>)| {
+            let start = span.start.checked_sub(part.start)?;
+            Some((start..span.end.checked_sub(part.start)?, bytes))
+        };
+        let moved: Option<Vec<_>> = self.0.into_iter().map(moved).collect();
+        Self(moved?).applied_to(text.get(part.clone())?)
+    }
+}
+
+/// A program that was run once and written flat.
+///
+/// ```
+/// use kinetostat_formats::{ReadOptions, SourceFile, expand_heidenhain};
+///
+/// let text = "BEGIN PGM A MM\nFN 0: Q1 = +5\nL X+Q1 F200\nEND PGM A MM\n";
+/// let flat = expand_heidenhain(vec![SourceFile::new("a.h", text)], &ReadOptions::default()).unwrap();
+/// assert_eq!(flat.file.bytes(), b"BEGIN PGM A MM\nL X+5 F200\nEND PGM A MM\n");
+/// assert_eq!(flat.origins, [(0, 1), (0, 3), (0, 4)]);
+/// assert!(flat.changed);
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlatText {
+    /// The flat program, under the name of the first file.
+    pub file: SourceFile,
+    /// Origin of every line: the file (an index of those given) and its line, counted from 1.
+    pub origins: Vec<(usize, usize)>,
+    /// True if the program was expanded; otherwise the bytes are those of the first file.
+    pub changed: bool,
+    /// Assumptions on uncertain source text, by file and line of the program as given.
+    pub findings: Vec<Finding>,
+}
+
+impl FlatText {
+    /// A file, by its index, in which nothing is to be flattened.
+    pub(crate) fn unchanged(file: &SourceFile, index: usize) -> Self {
+        let count = file.bytes().split_inclusive(|byte| *byte == b'\n').count();
+        Self {
+            file: file.clone(),
+            origins: (1..=count).map(|line| (index, line)).collect(),
+            changed: false,
+            findings: Vec::new(),
+        }
+    }
+}
+
+/// Something that a person should know of a program that was taken.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finding {
+    /// An index of [`RobotProgram::files`](crate::RobotProgram::files).
+    pub file: usize,
+    /// Line of the file, counted from 1.
+    pub line: usize,
+    /// Text of the finding.
+    pub message: String,
 }

@@ -3,20 +3,17 @@
 use std::ops::Range;
 
 use crate::interpreter::expression::{Argument, Expression, Operator};
-use crate::interpreter::flow::{Counting, Flow, Leave};
-use crate::interpreter::functions::function;
-use crate::interpreter::operation::two;
+use crate::interpreter::operation::{function, two};
 use crate::interpreter::reading::Grammar;
 use crate::interpreter::run::{Dialect, MotionParts};
 use crate::interpreter::token::{Kind, TokenFile};
-use crate::interpreter::tree::{Choice, DatumNode, Statement};
+use crate::interpreter::tree::{Choice, Counting, DatumNode, Flow, Leave, Statement};
 use crate::interpreter::value::{Datum, Step, Value};
 use crate::table::Treatment;
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::val3::expression::{self, PARTS};
-use crate::val3::frames::{numbers_of, own_trsf, single, trsf_of};
-use crate::val3::state::{Run, Val3};
-use crate::val3::table::{CHANGE_THEIRS, is_motion, is_one_of, row};
+use crate::val3::frames::{Run, Val3, numbers_of, own_trsf, single, trsf_of};
+use crate::val3::instructions::{CHANGE_THEIRS, is_motion, is_one_of, row};
 
 impl Dialect for Val3 {
     const OWN_COUNTER: bool = false;

@@ -1,17 +1,22 @@
-//! Transformations, and the frames and tools in which they are: each has a father, up to `world` or `flange`.
+//! State of a run beside its data: transformations, and the frames and tools in which they are; each has a father, up to `world` or `flange`.
 //!
 //! Source: Staubli, VAL3 Reference Manual, the pages of `trsf`, `frame`, `tool` and `point`: rx, ry, rz turn about X, the new Y and the
 //! new Z, in degrees.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Isometry3, Translation3};
 
 use crate::interpreter::expression::Expression;
+use crate::interpreter::run;
 use crate::interpreter::run::{Reason, Root};
+use crate::interpreter::symbols::Symbols;
+use crate::interpreter::token::TokenFile;
 use crate::interpreter::value::{Datum, Step, Value};
-use crate::model::frame::{Frame, FrameUse};
+use crate::model::motion::{Frame, FrameUse};
 use crate::model::orientation::OrientationText;
-use crate::text::name::Name;
-use crate::val3::state::Run;
+use crate::options::ReadOptions;
+use crate::text::Name;
 
 /// Limit of the ancestors of a frame.
 const DEEPEST: usize = 12;
@@ -149,5 +154,33 @@ impl Run<'_, '_> {
             parts => parts.get(index).unwrap_or(&none),
         };
         self.placed(element, depth)
+    }
+}
+
+/// A run of a VAL3 program.
+pub(super) type Run<'r, 'p> = run::Run<'r, 'p, Val3>;
+
+/// What a run keeps beside its data.
+pub(crate) struct Val3 {
+    /// Frames that the caller states.
+    pub stated: BTreeMap<Name, Isometry3<f64>>,
+    /// Motions were commanded, and nothing waited for their ends.
+    pub is_moving: bool,
+}
+
+impl Val3 {
+    /// A run that has not begun.
+    pub(super) fn run<'r, 'p>(
+        files: &'p [TokenFile<'p>],
+        symbols: &'r Symbols<'p>,
+        options: &'r ReadOptions,
+    ) -> Run<'r, 'p> {
+        let stated = options.frames.iter();
+        let stated = stated.filter_map(|(name, frame)| Some((Name::of(name.as_bytes())?, *frame)));
+        let own = Self {
+            stated: stated.collect(),
+            is_moving: false,
+        };
+        Run::new(files, symbols, options, own)
     }
 }

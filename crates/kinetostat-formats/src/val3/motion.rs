@@ -4,20 +4,18 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 
-use crate::interpreter::declared::Around;
+use crate::interpreter::ends::Around;
 use crate::interpreter::expression::{Argument, Expression, Node};
 use crate::interpreter::run::{Dialect, Reason};
 use crate::interpreter::value::{Datum, Value};
-use crate::model::frame::{Frame, FrameUse};
-use crate::model::motion::{Motion, MotionKind, Speed, Zone};
+use crate::model::motion::{Frame, FrameUse, Motion, MotionKind, Speed, Zone};
 use crate::model::orientation::OrientationText;
 use crate::model::program::ACCELERATION;
 use crate::model::site::{MotionSite, PoseText, ReplacedText, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::UnknownTargets;
 use crate::text::number::{NumberText, Width};
-use crate::val3::frames::{own_trsf, single};
-use crate::val3::state::{Run, Val3};
+use crate::val3::frames::{Run, Val3, own_trsf, single};
 
 /// A further point like an element of an array.
 const AROUND: Around = Around {
@@ -105,7 +103,7 @@ impl Run<'_, '_> {
         });
         self.say_beside(tokens, format!("{ACCELERATION}{}", said.concat()));
         let frames = [tool, own.frame];
-        let mut motion = self.made_motion(tokens, kind, (own.target, site), frames);
+        let mut motion = self.made_motion(tokens, kind, own.target, site, frames);
         (motion.speed, motion.zone) = described;
         Ok(motion)
     }

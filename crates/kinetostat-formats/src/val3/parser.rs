@@ -8,7 +8,7 @@ use crate::interpreter::token::{Kind, TokenFile};
 use crate::interpreter::tree::{Choice, LoopKind, Routine, RoutineKind, Sight, Statement};
 use crate::table::Treatment;
 use crate::val3::expression::expression_of;
-use crate::val3::table::{is_motion, row};
+use crate::val3::instructions::{is_motion, row};
 use crate::val3::xml::Draft;
 
 /// Deepest nesting of blocks.

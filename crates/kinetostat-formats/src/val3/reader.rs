@@ -7,16 +7,14 @@ use crate::interpreter::flat::flat_of;
 use crate::interpreter::symbols::Symbols;
 use crate::interpreter::token::TokenFile;
 use crate::interpreter::tree::{DatumNode, Routine};
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::parsed::{Parsed, Read};
 use crate::model::program::RobotProgram;
 use crate::options::ReadOptions;
-use crate::text::finding::Finding;
-use crate::text::flat::FlatText;
-use crate::text::name::Name;
-use crate::text::source::SourceFile;
+use crate::text::Name;
+use crate::text::source::{Finding, FlatText, SourceFile};
+use crate::val3::frames::Val3;
 use crate::val3::parser::routine_of;
-use crate::val3::state::Val3;
 use crate::val3::xml::content_of;
 
 const MOST_BYTES: usize = 1 << 26;
@@ -112,7 +110,7 @@ impl<'a> Application<'a> {
         order.sort_by_key(|(_, file)| is_program(file));
         let contents = order
             .into_iter()
-            .map(|file| content_of(file, &mut scalars, faults));
+            .map(|(index, file)| content_of(index, file, &mut scalars, faults));
         let mut contents: Vec<_> = contents.collect();
         contents.sort_by_key(|content| content.file.index);
         let mut own = Self {
@@ -165,14 +163,14 @@ pub(crate) fn is_program(file: &SourceFile) -> bool {
 /// Place below the line of `begin` of the first program.
 pub(crate) fn below_begin(program: &[u8]) -> Option<usize> {
     let file = SourceFile::new("", program);
-    let content = content_of((0, &file), &mut BTreeSet::new(), &mut Vec::new());
+    let content = content_of(0, &file, &mut BTreeSet::new(), &mut Vec::new());
     let begin = content.drafts.first()?.code.start;
     Some(file.start_of(content.file.line_of(begin) + 1))
 }
 
 /// Names of files of programs that a file calls.
 pub(crate) fn called_by(file: &SourceFile) -> Vec<String> {
-    let content = content_of((0, file), &mut BTreeSet::new(), &mut Vec::new()).file;
+    let content = content_of(0, file, &mut BTreeSet::new(), &mut Vec::new()).file;
     let calls = (0..content.tokens.len()).filter(|at| content.is_word(*at, "CALL"));
     calls
         .map(|at| format!("{}.pgx", content.text(&(at + 1..at + 2))))

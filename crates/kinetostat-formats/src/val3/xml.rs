@@ -10,10 +10,9 @@ use roxmltree::{Attribute, Document, Node};
 use crate::error::ProgramError;
 use crate::interpreter::token::{Kind, Token, TokenFile};
 use crate::interpreter::tree::{Change, DatumNode, Parameter, Sight};
-use crate::text::name::Name;
+use crate::text::Name;
 use crate::text::source::SourceFile;
-use crate::val3::expression::has_values;
-use crate::val3::lex::add_tokens;
+use crate::val3::expression::{add_tokens, has_values};
 
 /// A program before its statements are read.
 pub(super) struct Draft {
@@ -43,7 +42,8 @@ const SAVE_IT: &str = "save the application again with the editor of the control
 
 /// The content of a file; `scalars` are the data without an index, to which those of the file are added.
 pub(super) fn content_of<'a>(
-    (index, source): (usize, &'a SourceFile),
+    index: usize,
+    source: &'a SourceFile,
     scalars: &mut BTreeSet<Name>,
     faults: &mut Vec<ProgramError>,
 ) -> Content<'a> {

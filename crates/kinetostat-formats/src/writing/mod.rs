@@ -5,11 +5,8 @@
 //! A further language is a room beside `rapid`: a reader that fills [`crate::model`] (motions, their sites, declarations), a
 //! `Syntax`, a table of statements, a variant of `Language`, and one arm each in `document.rs`. Nothing here changes.
 
-pub(crate) mod declared;
 pub(crate) mod divided;
 mod ends;
-pub(crate) mod external_axes;
-pub(crate) mod line_length;
 pub(crate) mod motions;
 pub(crate) mod piece;
 pub(crate) mod syntax;

@@ -1,6 +1,6 @@
-//! Edits of files from pieces of motions.
+//! Edits of files from pieces of motions, and lines that became longer than a controller takes.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::error::WriteError;
 use crate::model::external::ways_of_external_axes;
@@ -8,20 +8,15 @@ use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 use crate::model::target::Target;
 use crate::options::WriteOptions;
-use crate::text::edits::Edits;
-use crate::text::line_words::in_words;
-use crate::writing::declared::{Demands, Names};
-use crate::writing::ends::{Writer, text_of};
-use crate::writing::external_axes::{AxesOfPiece, shared_axes};
-use crate::writing::line_length::check_lines;
+use crate::text::number::in_words;
+use crate::text::source::{Edits, SourceFile};
+use crate::writing::divided::{AxesOfPiece, shared_axes};
+use crate::writing::ends::{Demands, Names, Writer, text_of};
 use crate::writing::piece::{Piece, REPEATED, REPEATED_FOR_GOOD, Reason, SAME_MM, SAME_RAD};
 use crate::writing::syntax::Syntax;
 
 /// True if two runs of one statement take the same pieces: its numbers stand once.
-fn is_same_way(
-    (first, pieces): (&Motion, &[&Piece]),
-    (again, others): (&Motion, &[&Piece]),
-) -> bool {
+fn is_same_way(first: &Motion, pieces: &[&Piece], again: &Motion, others: &[&Piece]) -> bool {
     let near = |one: &Piece, other: &Piece| {
         let turn = match (one.orientation, other.orientation) {
             (Some(one), Some(other)) => one.angle_to(&other) <= SAME_RAD,
@@ -83,7 +78,7 @@ pub(crate) fn write_with(
         let first = *(first_runs.entry((motion.file, motion.span.start))).or_insert(index);
         if first != index {
             let before = of_motion.get(&first).map_or(&[][..], Vec::as_slice);
-            if !is_same_way((&program.motions[first], before), (motion, pieces)) {
+            if !is_same_way(&program.motions[first], before, motion, pieces) {
                 refused.add(
                     motion,
                     match syntax.is_written_flat() {
@@ -95,7 +90,7 @@ pub(crate) fn write_with(
             continue;
         }
         let text = text_of(program, &motion.site.target);
-        let axes = shared_axes(program, motion, ways, (text, pieces))?;
+        let axes = shared_axes(program, motion, ways, text, pieces)?;
         let pieces: Vec<(&Piece, &AxesOfPiece)> = pieces.iter().copied().zip(&axes).collect();
         if let Err(reason) = writer.write_motion(motion, &pieces) {
             refused.add(motion, reason);
@@ -197,4 +192,29 @@ impl Refused {
             remedy: first.reason.1.to_owned(),
         })
     }
+}
+
+/// No line that changed is longer than allowed.
+pub(crate) fn check_lines(
+    file: &SourceFile,
+    written: &[u8],
+    options: &WriteOptions,
+) -> Result<(), WriteError> {
+    let Some(limit) = options.max_line_bytes else {
+        return Ok(());
+    };
+    let old = file.bytes().split(|byte| *byte == b'\n');
+    let old: BTreeSet<&[u8]> = old.filter(|line| line.len() > limit).collect();
+    for (index, line) in written.split(|byte| *byte == b'\n').enumerate() {
+        let bytes = line.strip_suffix(b"\r").unwrap_or(line).len();
+        if bytes > limit && !old.contains(line) {
+            return Err(WriteError::LineTooLong {
+                file: file.name().to_owned(),
+                line: index + 1,
+                bytes,
+                limit,
+            });
+        }
+    }
+    Ok(())
 }

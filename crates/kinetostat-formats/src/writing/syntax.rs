@@ -10,9 +10,8 @@ use crate::model::orientation::OrientationText;
 use crate::model::program::RobotProgram;
 use crate::model::site::{Declaration, PoseText, ReplacedText};
 use crate::options::WriteOptions;
-use crate::text::edits::Edits;
 use crate::text::number::{NumberText, Width, printed};
-use crate::text::source::SourceFile;
+use crate::text::source::{Edits, SourceFile};
 
 /// The poses of a piece as they are written.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,18 +5,14 @@ use std::ops::Range;
 use kinetostat_program::Spindle;
 use nalgebra::Vector3;
 
-use crate::apt::dialect::Dialect;
-use crate::apt::flat::cycle::{Cycle, Said, Wrong, said};
-use crate::apt::flat::hole::{Hole, Part};
-use crate::apt::lines::{Statement, statements_of};
-use crate::apt::numbers::{all_numbers, arguments_of};
-use crate::apt::spindle::spindle_of;
-use crate::apt::state::unit_of;
+use crate::apt::flat::cycle::{Cycle, Hole, Part, Said, Wrong, said};
+use crate::apt::lines::{Statement, all_numbers, arguments_of, statements_of};
+use crate::apt::state::{spindle_of, unit_of};
+use crate::apt::table::Dialect;
 use crate::error::ProgramError;
 use crate::flat_run::Written;
-use crate::text::flat::FlatText;
 use crate::text::number::short;
-use crate::text::source::SourceFile;
+use crate::text::source::{FlatText, SourceFile};
 
 /// Writes the holes of an APT file (`CYCLE` and the GOTO behind it) as plain motions: by rapid over the hole and down to `RAPTO` or `CLEAR`,
 /// at the cycle's feed to its depth along the tool's axis, and out again; between holes at `CLEAR`, `RTRCTO` or higher. DRILL, FACE and
@@ -128,7 +124,7 @@ impl Run<'_> {
     }
 
     fn copy(&mut self, part: Range<usize>) {
-        self.written.copy((self.file, 0), &part);
+        self.written.copy(self.file, 0, &part);
     }
 
     fn line(&mut self, text: &str, from: &Statement) {
@@ -139,7 +135,7 @@ impl Run<'_> {
                 .extend_from_slice(self.file.line_ending());
         }
         let line = self.file.line_of(from.span.start);
-        self.written.line(text.as_bytes(), (0, line));
+        self.written.line(text.as_bytes(), 0, line);
     }
 
     fn take_feed(&mut self, feed: Option<String>, from: &Statement) {
@@ -246,7 +242,7 @@ impl Run<'_> {
         let Some(Some(cycle)) = self.cycle.clone() else {
             return;
         };
-        let done = self.written(statement, (place, &cycle));
+        let done = self.written(statement, place, &cycle);
         if let Err((reason, remedy)) = done {
             self.fault(statement, reason, remedy);
             self.place = None;
@@ -256,7 +252,8 @@ impl Run<'_> {
     fn written(
         &mut self,
         statement: &Statement,
-        (place, cycle): (Option<Vector3<f64>>, &Cycle),
+        place: Option<Vector3<f64>>,
+        cycle: &Cycle,
     ) -> Result<(), Wrong> {
         let at = place.ok_or((
             "the place of the hole is not three or six numbers".to_owned(),
@@ -267,7 +264,7 @@ impl Run<'_> {
             axis: self.axis,
             unit_mm: self.unit_mm,
         };
-        for part in hole.parts(cycle, (self.place, self.began), &self.spindle)? {
+        for part in hole.parts(cycle, self.place, self.began, &self.spindle)? {
             match part {
                 Part::Text(text) => self.line(&text, statement),
                 Part::Rapid(to) if self.place.is_some_and(|from| (to - from).amax() < SAME) => {}

@@ -2,4 +2,3 @@
 
 pub(crate) mod cycle;
 pub(crate) mod expand;
-pub(crate) mod hole;

@@ -2,27 +2,24 @@
 //! the tool's radius (`TOOL DEF .. R`, and `DR` of TOOL CALL).
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use nalgebra::Vector3;
 
 use crate::error::ProgramError;
+use crate::flat_run::edited;
+use crate::heidenhain::blocks::{is_numbered, numbered_again};
 use crate::heidenhain::datum::Bend;
-use crate::heidenhain::digits::decimals;
 use crate::heidenhain::expand::centre_line::{AGAIN, Piece, Why, centre_line};
-use crate::heidenhain::numbering::{is_numbered, numbered_again};
 use crate::heidenhain::path_words::FeedWord;
-use crate::heidenhain::reading::found::{Found, Way};
 use crate::heidenhain::reading::reader::interpret;
-use crate::heidenhain::words::Word;
+use crate::heidenhain::reading::walker::{Found, Way};
+use crate::heidenhain::words::{Word, decimals};
 use crate::heidenhain::writing::words::{
     Part, Stated, stands, with_blanks, word_text, write_functions,
 };
 use crate::options::{CutterCompensation, ReadOptions};
-use crate::refused_run::edited;
-use crate::text::edits::Edits;
-use crate::text::finding::Finding;
-use crate::text::flat::FlatText;
-use crate::text::source::SourceFile;
+use crate::text::source::{Edits, Finding, FlatText, SourceFile};
 
 /// Arcs shorter than this become lines, mm: their digits would say a whole turn or none.
 const LEAST_ARC_MM: f64 = 0.002;
@@ -52,7 +49,7 @@ pub(crate) fn led_aside(
         let end = at + sides.count();
         let radius = found.ways[at].aside.and_then(|(_, radius)| radius);
         if let (Some(radius), true) = (radius, end > at) {
-            let done = contour(&flat.file, &found, (at, end), radius, &mut text);
+            let done = contour(&flat.file, &found, at..end, radius, &mut text);
             match done {
                 Ok(()) => {
                     let finding = by_radius(&flat, &found.ways[at], radius);
@@ -63,12 +60,7 @@ pub(crate) fn led_aside(
                         .block
                         .text
                         .start;
-                    faults.push(ProgramError::of_flat(
-                        &flat,
-                        files,
-                        place,
-                        (why, remedy.as_str()),
-                    ));
+                    faults.push(ProgramError::of_flat(&flat, files, place, why, &remedy));
                 }
             }
         }
@@ -135,7 +127,7 @@ impl Text {
             let lines: Vec<u8> = lines.iter().flat_map(line).collect();
             self.edits.replace(*start..*start, lines);
         }
-        let mut flat = edited(flat, (self.edits, &added), files, AGAIN)?;
+        let mut flat = edited(flat, self.edits, &added, files, AGAIN)?;
         let bytes = flat.file.bytes();
         if let Some(bytes) = is_numbered(bytes).then(|| numbered_again(bytes)).flatten() {
             flat.file = SourceFile::new(flat.file.name(), bytes);
@@ -144,14 +136,15 @@ impl Text {
     }
 }
 
-/// Writes a contour, the motions from one to before another, and states what the block behind it takes over.
+/// Writes the motions of a contour, and states what the block behind it takes over.
 fn contour(
     file: &SourceFile,
     found: &Found,
-    (first, end): (usize, usize),
+    motions: Range<usize>,
     radius_mm: f64,
     text: &mut Text,
 ) -> Result<(), Why> {
+    let Range { start: first, end } = motions;
     let ways = &found.ways[first..end];
     let refused = |index: usize, why: &str| (index, why.to_owned(), AGAIN.to_owned());
     let Some((aside, _)) = ways[0].aside else {
@@ -181,7 +174,7 @@ fn contour(
         }
     }
     let plane = ways[0].working;
-    let pieces = centre_line(&found.motions[first..end], ways, (aside, radius_mm), plane)?;
+    let pieces = centre_line(&found.motions[first..end], ways, aside, radius_mm, plane)?;
     let behind = found.ways.get(end);
     if let Some(way) = behind {
         leaves(file, way, text).map_err(|why| refused(end - first, why))?;

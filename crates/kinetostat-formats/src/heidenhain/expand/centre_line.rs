@@ -9,9 +9,9 @@ use std::fmt::Write as _;
 use kinetostat_program::{Curve, Dialect, ExpandOptions, NoSubprograms, expand};
 use nalgebra::{Rotation2, Vector2, Vector3};
 
-use crate::heidenhain::aside::Aside;
-use crate::heidenhain::plane::Plane;
-use crate::heidenhain::reading::found::Way;
+use crate::heidenhain::arcs::Plane;
+use crate::heidenhain::reading::walker::Way;
+use crate::heidenhain::state::Aside;
 use crate::model::motion::{Motion, MotionKind};
 
 /// A piece of the way, in the programmed axes, mm.
@@ -71,7 +71,8 @@ impl Leg {
 pub(super) fn centre_line(
     motions: &[Motion],
     ways: &[Way],
-    (aside, radius_mm): (Aside, f64),
+    aside: Aside,
+    radius_mm: f64,
     plane: Plane,
 ) -> Result<Vec<Vec<Piece>>, Why> {
     let mut legs = Vec::with_capacity(ways.len());
@@ -114,7 +115,7 @@ pub(super) fn centre_line(
             "state RL or RR in the line to the contour, and go to the depth before".to_owned(),
         ));
     }
-    let text = as_gcode(&legs, ahead, (aside, radius_mm), plane);
+    let text = as_gcode(&legs, ahead, aside, radius_mm, plane);
     let mut options = ExpandOptions::default();
     options.dialect = Dialect::LinuxCnc;
     let flat = expand(text, &options, &NoSubprograms).map_err(|fault| {
@@ -167,7 +168,8 @@ const HEAD_LINES: usize = 3;
 fn as_gcode(
     legs: &[Leg],
     ahead: Vector2<f64>,
-    (aside, radius_mm): (Aside, f64),
+    aside: Aside,
+    radius_mm: f64,
     plane: Plane,
 ) -> String {
     let first = plane.flat(&legs[0].to) - ahead * (2.0 * radius_mm + 1.0);

@@ -7,19 +7,17 @@ use nalgebra::Vector2;
 
 use crate::corner::{Cut, not_followed};
 use crate::error::ProgramError;
+use crate::flat_run::edited;
 use crate::heidenhain::blocks::Block;
-use crate::heidenhain::digits::decimals;
 use crate::heidenhain::path_words::FeedWord;
 use crate::heidenhain::reading::reader::interpret;
-use crate::heidenhain::reading::rounded::{AS_ARC, Rounded, has_corners};
+use crate::heidenhain::reading::walker::{AS_ARC, Rounded, has_corners};
+use crate::heidenhain::words::decimals;
 use crate::heidenhain::writing::words::{
     Stated, before_functions, feed_text, stands, with_blanks, word_text,
 };
 use crate::options::ReadOptions;
-use crate::refused_run::edited;
-use crate::text::edits::Edits;
-use crate::text::flat::FlatText;
-use crate::text::source::SourceFile;
+use crate::text::source::{Edits, FlatText, SourceFile};
 
 /// End of a line and the feed that it has to state.
 #[derive(Default)]
@@ -50,8 +48,9 @@ pub(crate) fn written_out(
         match corner {
             Ok(corner) => corners.push(corner),
             Err((span, why, remedy)) => {
-                let why = (not_followed(&why), remedy);
-                faults.push(ProgramError::of_flat(&flat, files, span.start, why));
+                let why = not_followed(&why);
+                let fault = ProgramError::of_flat(&flat, files, span.start, why, remedy);
+                faults.push(fault);
             }
         }
     }
@@ -60,7 +59,7 @@ pub(crate) fn written_out(
         return Err(faults);
     }
     let edits = edits_of(&flat.file, &corners, &found.polar);
-    edited(flat, (edits, &BTreeMap::new()), files, AS_ARC)
+    edited(flat, edits, &BTreeMap::new(), files, AS_ARC)
 }
 
 /// The changes of a flat text; `polar` holds the LP blocks that count on a radius or an angle of before, with their ends.

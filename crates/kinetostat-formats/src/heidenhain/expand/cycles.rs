@@ -1,12 +1,11 @@
 //! Cycles: what they define, and the holes that their calls drill.
 
+use crate::flat_run::BlockId;
 use crate::heidenhain::datum::KEPT;
-use crate::heidenhain::digits::length;
 use crate::heidenhain::expand::hole::{Hole, Stroke};
 use crate::heidenhain::expand::run::{Fault, Run};
-use crate::heidenhain::expand::values::Parameters;
-use crate::heidenhain::expand::values::begins_value;
-use crate::heidenhain::words::{Value, Word, words_of};
+use crate::heidenhain::expand::values::{Parameters, begins_value};
+use crate::heidenhain::words::{Value, Word, length, words_of};
 use crate::options::UnknownTargets;
 use crate::text::number::short;
 
@@ -42,8 +41,8 @@ struct Heights {
 }
 
 impl Run<'_> {
-    pub(crate) fn cycle(&mut self, at: (usize, usize), words: &[Word]) -> Result<(), Fault> {
-        let file = self.programs[at.0].file;
+    pub(crate) fn cycle(&mut self, at: BlockId, words: &[Word]) -> Result<(), Fault> {
+        let file = self.programs[at.file].file;
         let parted = named(file.bytes(), words);
         let words = parted.as_deref().unwrap_or(words);
         let Some(kind) = words.get(1) else {
@@ -134,7 +133,7 @@ impl Run<'_> {
     }
 
     /// True if the called cycle stays a cycle.
-    pub(crate) fn is_left(&self, at: (usize, usize)) -> Result<bool, Fault> {
+    pub(crate) fn is_left(&self, at: BlockId) -> Result<bool, Fault> {
         match self.cycle {
             _ if self.cycle_refused => Ok(false),
             None => Err(self.fault(at, "no cycle is defined that could be called", "define it before")),
@@ -163,7 +162,7 @@ impl Run<'_> {
     }
 
     /// A cycle whose way is the control's own: its call, between the blocks that lead over the hole and away.
-    fn keep_cycle(&mut self, at: (usize, usize), heights: &Heights) {
+    fn keep_cycle(&mut self, at: BlockId, heights: &Heights) {
         let to = |height: f64| {
             let height = length(height, self.unit_mm);
             format!("L {}{height} R0 FMAX", self.axis)
@@ -175,7 +174,7 @@ impl Run<'_> {
     }
 
     /// The blocks of a hole.
-    pub(crate) fn drill(&mut self, at: (usize, usize)) -> Result<(), Fault> {
+    pub(crate) fn drill(&mut self, at: BlockId) -> Result<(), Fault> {
         if self.cycle_refused {
             return Ok(());
         }

@@ -1,18 +1,16 @@
 //! Control flow: labels, repeats, other programs, jumps.
 
 use crate::error::ProgramError;
-use crate::heidenhain::called::called_name;
-use crate::heidenhain::expand::expression::value_of;
-use crate::heidenhain::expand::program::Program;
-use crate::heidenhain::expand::run::{Fault, Frame, Next, Run};
-use crate::heidenhain::expand::values::STATE_VALUE;
-use crate::heidenhain::flow::label_name;
-use crate::heidenhain::title::other_end;
+use crate::flat_run::BlockId;
+use crate::heidenhain::blocks::other_end;
+use crate::heidenhain::expand::run::{Fault, Frame, Next, Program, Run};
+use crate::heidenhain::expand::values::{STATE_VALUE, value_of};
+use crate::heidenhain::flow::{called_name, label_name};
 use crate::heidenhain::words::Word;
 
 impl Run<'_> {
     /// END PGM: the program that called goes on.
-    pub(crate) fn program_ends(&mut self, at: (usize, usize)) -> Result<Next, Fault> {
+    pub(crate) fn program_ends(&mut self, at: BlockId) -> Result<Next, Fault> {
         let open = self
             .frames
             .iter()
@@ -33,14 +31,15 @@ impl Run<'_> {
                 local,
             }) => {
                 self.parameters.back(local);
-                Ok(Next::At(file, caller + 1))
+                let block = caller + 1;
+                Ok(Next::At(BlockId { file, block }))
             }
             _ => Ok(Next::End),
         }
     }
 
-    fn label(&self, at: (usize, usize), word: Option<&Word>) -> Result<usize, Fault> {
-        let program = &self.programs[at.0];
+    fn label(&self, at: BlockId, word: Option<&Word>) -> Result<usize, Fault> {
+        let program = &self.programs[at.file];
         let name = word
             .filter(|word| word.is("LBL"))
             .and_then(|word| label_name(program.file.bytes(), word));
@@ -55,19 +54,20 @@ impl Run<'_> {
         })
     }
 
-    pub(crate) fn call(&mut self, at: (usize, usize), words: &[Word]) -> Result<Next, Fault> {
+    pub(crate) fn call(&mut self, at: BlockId, words: &[Word]) -> Result<Next, Fault> {
         let what = words.get(1);
         if what.is_some_and(|word| word.is("PGM")) {
             return self.call_program(at, &words[1]);
         }
-        let to = self.label(at, what)?;
+        let block = self.label(at, what)?;
+        let to = BlockId { block, ..at };
         let Some(again) = words.get(2) else {
-            self.enter(at, Frame::Sub { caller: at.1 })?;
-            return Ok(Next::At(at.0, to));
+            self.enter(at, Frame::Sub { caller: at.block })?;
+            return Ok(Next::At(to));
         };
         // To the end of the block; of `REP 2/2` the second number is how often it is still to run.
         let end = words.last().map_or(again.span.end, |word| word.span.end);
-        let text = self.programs[at.0].file.part(&(again.span.start..end));
+        let text = self.programs[at.file].file.part(&(again.span.start..end));
         let text = text.split(|byte| *byte == b'/').next().unwrap_or_default();
         let count = match again.is("REP") {
             true => value_of(&text[3.min(text.len())..], &self.parameters).ok(),
@@ -83,23 +83,23 @@ impl Run<'_> {
         };
         // Is it the repeat that is running?
         if let Some(Frame::Again { by, left }) = self.frames.last_mut()
-            && *by == at.1
+            && *by == at.block
         {
             if *left == 0 {
                 self.frames.pop();
                 return Ok(Next::Block);
             }
             *left -= 1;
-            return Ok(Next::At(at.0, to));
+            return Ok(Next::At(to));
         }
         let left = count as u64 - 1;
-        self.enter(at, Frame::Again { by: at.1, left })?;
-        Ok(Next::At(at.0, to))
+        self.enter(at, Frame::Again { by: at.block, left })?;
+        Ok(Next::At(to))
     }
 
-    fn call_program(&mut self, at: (usize, usize), word: &Word) -> Result<Next, Fault> {
-        let program = &self.programs[at.0];
-        let block = &program.blocks[at.1];
+    fn call_program(&mut self, at: BlockId, word: &Word) -> Result<Next, Fault> {
+        let program = &self.programs[at.file];
+        let block = &program.blocks[at.block];
         let name = called_name(program.file.bytes(), block, word);
         let found = (self.programs.iter()).position(|program| program.is_named(&name));
         let Some(found) = found.filter(|_| !name.is_empty()) else {
@@ -118,8 +118,10 @@ impl Run<'_> {
             };
             let held = &self.programs[found];
             return Err(ProgramError::named_alike(
-                (other.file, begin(other)),
-                (held.file, begin(held)),
+                other.file,
+                begin(other),
+                held.file,
+                begin(held),
             ));
         }
         let Some(begin) = self.programs[found].begin else {
@@ -136,15 +138,18 @@ impl Run<'_> {
         self.may_enter(at)?;
         let local = self.parameters.called();
         self.frames.push(Frame::Program {
-            file: at.0,
-            caller: at.1,
+            file: at.file,
+            caller: at.block,
             local,
         });
-        Ok(Next::At(found, begin))
+        Ok(Next::At(BlockId {
+            file: found,
+            block: begin,
+        }))
     }
 
-    pub(crate) fn jump(&mut self, at: (usize, usize), words: &[Word]) -> Result<Next, Fault> {
-        let bytes = self.programs[at.0].file.bytes();
+    pub(crate) fn jump(&mut self, at: BlockId, words: &[Word]) -> Result<Next, Fault> {
+        let bytes = self.programs[at.file].file.bytes();
         let place = |name: &str| words.iter().position(|word| word.is(name));
         let (Some(from), Some(goes)) = (place("IF"), place("GOTO")) else {
             return Err(self.fault(
@@ -179,12 +184,12 @@ impl Run<'_> {
                 ));
             }
         };
-        let to = self.label(at, words.get(goes + 1))?;
+        let block = self.label(at, words.get(goes + 1))?;
         if is_true {
-            self.written.goes_back(at, to);
+            self.written.goes_back(at, block);
         }
         Ok(match is_true {
-            true => Next::At(at.0, to),
+            true => Next::At(BlockId { block, ..at }),
             false => Next::Block,
         })
     }

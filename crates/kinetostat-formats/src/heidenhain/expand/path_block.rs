@@ -1,12 +1,13 @@
 //! Blocks that go somewhere or take a tool: their values, their calls of a cycle, the feed behind a hole.
 
+use crate::flat_run::BlockId;
 use crate::heidenhain::expand::run::{Fault, Frame, Next, Run};
 use crate::heidenhain::expand::values::Parameters;
 use crate::heidenhain::flow::label_name;
 use crate::heidenhain::path_words::{FeedWord, PathWords};
 use crate::heidenhain::words::{Value, Word, words_of};
 use crate::heidenhain::writing::words::{before_functions, take_out};
-use crate::text::edits::Edits;
+use crate::text::source::Edits;
 
 impl Run<'_> {
     /// The feed of a tool that is taken is in force; its radius, where the program defines it, is Q108 from there on.
@@ -45,7 +46,7 @@ impl Run<'_> {
     }
 
     /// Any other block: its values, its calls of a cycle, the feed behind a hole.
-    pub(crate) fn path(&mut self, at: (usize, usize), words: &[Word]) -> Result<Next, Fault> {
+    pub(crate) fn path(&mut self, at: BlockId, words: &[Word]) -> Result<Next, Fault> {
         // Blocks without parameters and functions are written unchanged.
         let plain = |word: &Word| {
             !matches!(word.value, Value::Parameter { .. })
@@ -55,8 +56,8 @@ impl Run<'_> {
                 )
         };
         if !self.modal && !self.feed_lost && words.iter().all(plain) {
-            let program = &self.programs[at.0];
-            let text = program.file.part(&program.blocks[at.1].text);
+            let program = &self.programs[at.file];
+            let text = program.file.part(&program.blocks[at.block].text);
             self.write(text, at);
             return Ok(Next::Block);
         }
@@ -158,7 +159,7 @@ impl Run<'_> {
     }
 
     /// M2 and M30.
-    fn ends_all(&self, at: (usize, usize)) -> Result<Next, Fault> {
+    fn ends_all(&self, at: BlockId) -> Result<Next, Fault> {
         let in_program = |frame: &Frame| matches!(frame, Frame::Program { .. });
         match self.frames.iter().any(in_program) {
             true => Err(self.fault(

@@ -8,10 +8,10 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use crate::corner::{Beside, Corner, Cut, rounding};
+use crate::heidenhain::arcs::XY;
 use crate::heidenhain::blocks::Block;
-use crate::heidenhain::plane::{Plane, XY};
-use crate::heidenhain::reading::rounded::{AS_ARC, AS_LINE, Line, Pending, Rounded};
-use crate::heidenhain::reading::walker::Reader;
+use crate::heidenhain::ends::Went;
+use crate::heidenhain::reading::walker::{AS_ARC, AS_LINE, Line, Pending, Reader, Rounded};
 use crate::heidenhain::words::Word;
 
 /// An arc that turns by more has no corner of its own, rad.
@@ -57,13 +57,21 @@ impl Reader<'_> {
         });
     }
 
-    /// A block that was followed: the line before a corner, or the one behind; or an arc about a pole.
+    /// A block that was followed from the place in the state to another: the line before a corner, or the one behind; or an arc
+    /// about a pole.
     pub(crate) fn line_went(
         &mut self,
-        (block, words): (&Block, &[Word]),
-        (start, to, arc): ([Option<f64>; 3], Vector3<f64>, Option<Beside>),
-        (plane, rapid): (Plane, bool),
+        block: &Block,
+        words: &[Word],
+        went: &Went,
+        to: Vector3<f64>,
+        rapid: bool,
     ) {
+        let plane = went.plane;
+        let arc = went.arc.as_ref().map(|arc| Beside {
+            centre: arc.centre,
+            angle: arc.angle,
+        });
         if words[0].is("LP") && !self.found.corners.is_empty() {
             let polar = (block.clone(), to.xy(), self.unit_mm);
             match plane == XY {
@@ -76,7 +84,7 @@ impl Reader<'_> {
                 }
             }
         }
-        let [Some(x), Some(y), Some(z)] = start else {
+        let [Some(x), Some(y), Some(z)] = self.state.place else {
             return;
         };
         let known = match arc {

@@ -4,12 +4,11 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 
-use crate::apt::places::frame_use;
+use crate::apt::file_reader::frame_use;
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::datum::is_followed;
 use crate::heidenhain::ends::Shape;
-use crate::heidenhain::reading::found::{PoleThere, Way};
-use crate::heidenhain::reading::walker::Reader;
+use crate::heidenhain::reading::walker::{PoleThere, Reader, Way};
 use crate::heidenhain::words::Word;
 use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::site::{MotionSite, SpeedSite, TargetSite};
@@ -26,6 +25,14 @@ pub(crate) const UNSTATED: &str = "an axis was not stated since the coordinates 
 pub(crate) enum Carried {
     Yes,
     IfLeft,
+}
+
+/// End of a motion: its target, the position of that in the text, and the programmed coordinates that the block states.
+pub(crate) struct MotionEnd {
+    pub target: Target,
+    pub site: TargetSite,
+    pub shape: Shape,
+    pub end: [Option<f64>; 3],
 }
 
 /// The surface normal that a block states.
@@ -104,16 +111,13 @@ impl Reader<'_> {
         let target = Target::Unknown {
             reason: reason.to_owned(),
         };
-        let site = TargetSite::Fixed("its end is not known");
-        let parts = (Shape::Unknown, [None; 3], true);
-        self.push(
-            block,
-            words,
-            span,
-            MotionKind::Linear,
-            (target, site),
-            parts,
-        );
+        let end = MotionEnd {
+            target,
+            site: TargetSite::Fixed("its end is not known"),
+            shape: Shape::Unknown,
+            end: [None; 3],
+        };
+        self.push(block, words, span, MotionKind::Linear, end, true);
     }
 
     pub(crate) fn push(
@@ -122,9 +126,15 @@ impl Reader<'_> {
         words: &[Word],
         span: &Range<usize>,
         kind: MotionKind,
-        (target, site): (Target, TargetSite),
-        (shape, end, rapid): (Shape, [Option<f64>; 3], bool),
+        end: MotionEnd,
+        rapid: bool,
     ) {
+        let MotionEnd {
+            target,
+            site,
+            shape,
+            end,
+        } = end;
         let speed = match rapid {
             true => Speed {
                 mm_per_s: None,

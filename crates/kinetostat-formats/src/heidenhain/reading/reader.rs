@@ -2,24 +2,19 @@
 
 use std::collections::BTreeSet;
 
-use crate::apt::places::Frames;
-use crate::axis_count::{CountShown, shown_by_both};
+use crate::apt::file_reader::Frames;
 use crate::error::{ProgramError, note};
-use crate::heidenhain::blocks::{Block, blocks_of};
+use crate::heidenhain::blocks::{Block, OtherEnd, blocks_of, other_end};
 use crate::heidenhain::flow::{NAME_IT, Step, label_twice, labels_of, order, step_of};
-use crate::heidenhain::reading::found::Found;
-use crate::heidenhain::reading::rounded::has_corners;
-use crate::heidenhain::reading::walker::{EXPAND, Reader};
+use crate::heidenhain::reading::walker::{EXPAND, Found, Reader, has_corners};
 use crate::heidenhain::state::State;
-use crate::heidenhain::title::{OtherEnd, other_end};
-use crate::model::language::Language;
+use crate::model::Language;
 use crate::model::parsed::Parsed;
-use crate::model::program::RobotProgram;
-use crate::model::stated_axes::StatedAxes;
+use crate::model::program::{RobotProgram, StatedAxes};
 use crate::options::ReadOptions;
 use crate::standing::Standing;
-use crate::text::finding::Finding;
-use crate::text::source::{BEHIND_END, SourceFile};
+use crate::text::source::{BEHIND_END, Finding, SourceFile};
+use crate::turned_axis::{CountShown, shown_by_both};
 
 const MOST_BYTES: usize = 1 << 28;
 

@@ -4,15 +4,14 @@ use std::ops::Range;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::corner::Beside;
+use crate::heidenhain::arcs::XY;
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::datum::Bend;
 use crate::heidenhain::ends::{Ends, Went};
 use crate::heidenhain::path_words::{FeedWord, PathWords};
-use crate::heidenhain::plane::XY;
-use crate::heidenhain::reading::motions::{Carried, UNSTATED};
+use crate::heidenhain::reading::motions::{Carried, MotionEnd, UNSTATED};
 use crate::heidenhain::reading::walker::Reader;
-use crate::heidenhain::tilt::Stands;
+use crate::heidenhain::state::Stands;
 use crate::heidenhain::words::Word;
 use crate::model::motion::MotionKind;
 use crate::model::orientation::OrientationText;
@@ -35,7 +34,8 @@ impl Reader<'_> {
         &mut self,
         block: &Block,
         words: &[Word],
-        (parsed, turns): (&PathWords, bool),
+        parsed: &PathWords,
+        turns: bool,
         span: &Range<usize>,
         acts: &Acts,
     ) {
@@ -202,20 +202,15 @@ impl Reader<'_> {
             configuration: Configuration::default(),
             external: Vec::new(),
         });
-        self.push(
-            block,
-            words,
-            span,
-            kind,
-            (target, TargetSite::Literal(text)),
-            (went.shape, went.end, rapid),
-        );
+        let end = MotionEnd {
+            target,
+            site: TargetSite::Literal(text),
+            shape: went.shape,
+            end: went.end,
+        };
+        self.push(block, words, span, kind, end, rapid);
         if self.has_corners {
-            let arc = went.arc.as_ref().map(|arc| Beside {
-                centre: arc.centre,
-                angle: arc.angle,
-            });
-            self.line_went((block, words), (start, place, arc), (plane, rapid));
+            self.line_went(block, words, went, place, rapid);
         }
         self.state.place = went.end;
     }

@@ -3,9 +3,9 @@
 use crate::heidenhain::path_words::{FeedWord, PathWords, RotaryWord, has_words};
 use crate::heidenhain::table::{Function, function};
 use crate::heidenhain::words::Word;
-use crate::text::edits::Edits;
 use crate::text::number::{NumberText, Width, printed, short};
-use crate::text::source::SourceFile;
+use crate::text::source::{Edits, SourceFile};
+use crate::writing::piece::Piece;
 
 /// Functions of a block that is divided: those at its beginning on the first piece, those at its end on the last.
 pub(crate) fn write_functions(words: &[Word], part: Part, edits: &mut Edits) {
@@ -38,6 +38,15 @@ pub(crate) enum Part {
     First,
     Middle,
     Last,
+}
+
+/// A piece and its position within its motion.
+#[derive(Clone, Copy)]
+pub(crate) struct PlacedPiece<'p> {
+    pub piece: &'p Piece,
+    pub part: Part,
+    /// Share of the motion at the end of the piece, by the number of pieces.
+    pub share: f64,
 }
 
 /// When a function acts.

@@ -1,6 +1,4 @@
 //! Writing of KRL: statements of pieces, ends that state what they took over from the previous pose, and FOLDs that show renamed points.
 
-mod renamed;
 mod stated;
-mod steps;
 pub(crate) mod write;

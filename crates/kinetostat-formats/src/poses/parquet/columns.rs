@@ -9,8 +9,9 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::{ColumnPath, Type, TypePtr};
 
-use crate::poses::parquet::data::{Data, MOST_ROWS, Values, append, of_reader};
-use crate::poses::parquet::kind::{Kind, printed, type_of};
+use crate::poses::parquet::data::{
+    Data, Kind, MOST_ROWS, Values, append, of_reader, printed, type_of,
+};
 
 /// Metadata key of Arrow's own schema.
 const ARROW: &str = "ARROW:schema";
@@ -131,7 +132,7 @@ impl Columns {
     /// Makes a column one of the type double, which holds all its numbers.
     pub(crate) fn widen(&mut self, index: usize) -> Result<(), String> {
         let (column, kind) = (&self.columns[index], self.kinds[index]);
-        let cells = (0..self.rows).map(|row| printed((column, kind), row).parse().ok());
+        let cells = (0..self.rows).map(|row| printed(column, kind, row).parse().ok());
         let cells: Vec<Option<f64>> = cells.collect();
         let mut wide = Values {
             values: Vec::with_capacity(cells.len()),

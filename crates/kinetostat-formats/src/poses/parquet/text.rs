@@ -5,8 +5,7 @@ use parquet::file::metadata::KeyValue;
 use crate::poses::cells::{PARQUET_ROW, cells_of};
 use crate::poses::layout::{Named, layout_of};
 use crate::poses::parquet::columns::Columns;
-use crate::poses::parquet::data::Data;
-use crate::poses::parquet::kind::{Kind, printed, quoted};
+use crate::poses::parquet::data::{Data, Kind, printed, quoted};
 
 /// Comments of the text are metadata under this key.
 const KEY: &str = "kinetostat";
@@ -43,8 +42,8 @@ pub fn table_of_parquet(bytes: &[u8]) -> Result<Vec<u8>, String> {
     text += PARQUET_ROW;
     text.push('\n');
     for row in 0..columns.rows {
-        for column in columns.columns.iter().zip(&columns.kinds) {
-            text += &printed((column.0, *column.1), row);
+        for (column, kind) in columns.columns.iter().zip(&columns.kinds) {
+            text += &printed(column, *kind, row);
             text.push(',');
         }
         text += &format!("{row}\n");
@@ -202,10 +201,10 @@ fn written(made: &mut Columns, index: usize, cells: &[Vec<&[u8]>]) -> Result<(),
     for (row, cells) in cells.iter().enumerate() {
         let cell = String::from_utf8_lossy(cells[index]);
         let column = &mut made.columns[index];
-        let before = printed((column, kind), row);
+        let before = printed(column, kind, row);
         let number = |text: &str| text.parse::<f64>().ok();
         let is_same = cell == before || number(&cell).is_some() && number(&cell) == number(&before);
-        if !is_same && put((column, kind), row, &cell).is_none() {
+        if !is_same && put(column, kind, row, &cell).is_none() {
             return Err(cell.into_owned());
         }
     }
@@ -213,7 +212,7 @@ fn written(made: &mut Columns, index: usize, cells: &[Vec<&[u8]>]) -> Result<(),
 }
 
 /// Puts a number in place of that of a row; none where the column cannot hold it.
-fn put((column, kind): (&mut Data, Kind), row: usize, cell: &str) -> Option<()> {
+fn put(column: &mut Data, kind: Kind, row: usize, cell: &str) -> Option<()> {
     if matches!(kind, Kind::Decimal(_) | Kind::Half) {
         return None;
     }

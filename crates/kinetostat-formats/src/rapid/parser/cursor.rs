@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::error::{ProgramError, note};
 use crate::interpreter::token::{Kind, TokenFile};
-use crate::text::name::Name;
+use crate::text::Name;
 
 /// Words that begin a statement or end a block: a statement before them has no semicolon.
 #[rustfmt::skip]

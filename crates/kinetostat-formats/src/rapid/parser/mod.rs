@@ -1,6 +1,5 @@
 //! Parser from tokens to modules, routines and statements. It notes errors and continues.
 
 mod cursor;
-mod declarations;
 pub(crate) mod modules;
 mod statements;

@@ -4,8 +4,7 @@
 //! Source: Siemens, SINUMERIK 840D sl / 828D, programming manual, job planning, "Save modal G functions (SAVE)", and function manual,
 //! basic functions, K2 "Subprograms with SAVE attribute": behind the call the frame that was active before it is active again.
 
-use crate::flat_run::Runs;
-use crate::refused_run::Behind;
+use crate::flat_run::{Behind, Runs};
 use crate::siemens::block::{Argument, Item, What};
 use crate::siemens::called::{key_of_call, named_by};
 use crate::siemens::expression::Expression;
@@ -60,14 +59,14 @@ impl<'r> Runner<'r> {
 
     /// The subprogram that MCALL calls behind each block with a place, in the program that states it.
     pub(super) fn modal_call(&self) -> Result<Option<Call<'r>>, Fault> {
-        let Some(((unit, line), _)) = self
+        let Some((at, _)) = self
             .modal_call
             .filter(|(_, level)| *level == self.levels.len())
         else {
             return Ok(None);
         };
         let units = self.units;
-        self.call(&units[unit].lines[line].block.items[1..])
+        self.call(&units[at.file].lines[at.block].block.items[1..])
     }
 
     fn not_alone(&self, item: &Item) -> Fault {

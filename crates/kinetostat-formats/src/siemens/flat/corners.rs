@@ -7,15 +7,13 @@ use nalgebra::Vector2;
 
 use crate::corner::{Corner, Cut, not_followed};
 use crate::error::ProgramError;
+use crate::flat_run::edited;
 use crate::options::ReadOptions;
-use crate::refused_run::edited;
-use crate::siemens::place::{LETTERS, number_text, without};
-use crate::siemens::scan::scan_with;
+use crate::siemens::reader::scan_with;
 use crate::siemens::state::Code;
 use crate::siemens::walker::{Corners, Written};
-use crate::text::edits::Edits;
-use crate::text::flat::FlatText;
-use crate::text::source::SourceFile;
+use crate::siemens::writing::place::{LETTERS, number_text, without};
+use crate::text::source::{Edits, FlatText, SourceFile};
 
 const REMEDY: &str = "let the CAM system write the corner as a block between its lines";
 
@@ -88,8 +86,9 @@ pub(super) fn written_out(
                 made.insert(index, corner);
             }
             Err((why, remedy)) => {
-                let why = (not_followed(&why), remedy);
-                faults.push(ProgramError::of_flat(&flat, files, word.start, why));
+                let why = not_followed(&why);
+                let fault = ProgramError::of_flat(&flat, files, word.start, why, remedy);
+                faults.push(fault);
             }
         }
     }
@@ -98,7 +97,7 @@ pub(super) fn written_out(
         return Err(faults);
     }
     let (edits, added) = edits_of(&flat.file, &found.written, &made);
-    edited(flat, (edits, &added), files, REMEDY)
+    edited(flat, edits, &added, files, REMEDY)
 }
 
 fn corner(

@@ -9,8 +9,8 @@
 use std::collections::BTreeMap;
 
 use crate::siemens::table::KEPT;
-use crate::text::finding::Finding;
-use crate::text::line_words::in_words;
+use crate::text::number::in_words;
+use crate::text::source::Finding;
 
 /// A cycle with its numbers, along the axis across the plane.
 #[derive(Debug, Clone, PartialEq)]

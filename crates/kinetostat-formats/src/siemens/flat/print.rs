@@ -1,7 +1,7 @@
 //! The blocks of a program as they run: numbers in place of expressions, without labels and assignments.
 
 use crate::flat_run::Runs;
-use crate::model::slash_blocks::{SLASHED, SlashBlocks};
+use crate::model::stated_value::{SLASHED, SlashBlocks};
 use crate::siemens::block::{Block, Item, What};
 use crate::siemens::expression::Expression;
 use crate::siemens::flat::drilling::is_drilling;
@@ -9,9 +9,9 @@ use crate::siemens::flat::holes::drilling_of;
 use crate::siemens::flat::modes::is_frame;
 use crate::siemens::flat::runner::{Fault, Runner};
 use crate::siemens::flat::structure::Line;
-use crate::siemens::place::number_text;
 use crate::siemens::values::Value;
-use crate::text::edits::Edits;
+use crate::siemens::writing::place::number_text;
+use crate::text::source::Edits;
 
 /// Ends of programs.
 pub(super) enum End {

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::error::ProgramError;
-use crate::flat_run::{Place, Written};
-use crate::model::slash_blocks::SlashBlocks;
+use crate::flat_run::{BlockId, Written};
+use crate::model::stated_value::SlashBlocks;
 use crate::options::ReadOptions;
 use crate::siemens::block::What;
 use crate::siemens::expression::Expression;
@@ -50,6 +50,14 @@ pub(super) struct Level {
 }
 
 impl Level {
+    /// The line that runs.
+    pub(super) fn at(&self) -> BlockId {
+        BlockId {
+            file: self.unit,
+            block: self.line,
+        }
+    }
+
     pub(super) fn of(unit: usize) -> Self {
         Self {
             unit,
@@ -74,7 +82,7 @@ pub(super) struct Runner<'r> {
     /// MCALL of a cycle in force.
     pub drilling: Option<Drilling>,
     /// MCALL of a subprogram in force: its place, and how many programs deep it stands.
-    pub modal_call: Option<(Place, usize)>,
+    pub modal_call: Option<(BlockId, usize)>,
     pub doubts: Doubts,
     pub slash_blocks: SlashBlocks,
 }
@@ -84,7 +92,8 @@ impl<'r> Runner<'r> {
         files: &'r [SourceFile],
         units: &'r [Unit],
         names: BTreeMap<Vec<u8>, usize>,
-        (main, options): (usize, &ReadOptions),
+        main: usize,
+        options: &ReadOptions,
     ) -> Self {
         Self {
             slash_blocks: options.slash_blocks,
@@ -166,7 +175,7 @@ impl<'r> Runner<'r> {
             next = section.behind;
             level.sections.pop();
         }
-        self.written.goes_back((level.unit, level.line), next);
+        self.written.goes_back(level.at(), next);
         level.line = next;
     }
 
@@ -227,7 +236,7 @@ impl<'r> Runner<'r> {
     /// Writes a line, and where it is from.
     pub(super) fn write_line(&mut self, text: &[u8]) {
         let level = self.levels.last();
-        let origin = level.map_or((0, 0), |level| (level.unit, level.line + 1));
-        self.written.line(text.trim_ascii_end(), origin);
+        let (file, line) = level.map_or((0, 0), |level| (level.unit, level.line + 1));
+        self.written.line(text.trim_ascii_end(), file, line);
     }
 }

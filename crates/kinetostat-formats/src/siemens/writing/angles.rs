@@ -3,11 +3,11 @@
 //! The pieces of a block share its turns out: each states its angle in the way of the block's own word, and one without a word
 //! states it where it is another one than stands. What is rounded in one piece is made up for in the next.
 
-use crate::axis_count::{AxisCount, EndWord, turns_below};
 use crate::siemens::block::How;
 use crate::siemens::state::Coordinate;
 use crate::siemens::writing::writer::Writer;
 use crate::text::number::{Width, printed};
+use crate::turned_axis::{AxisCount, EndWord, turns_below};
 use crate::writing::piece::Piece;
 
 /// Half of the last digit of an angle, deg.
@@ -75,7 +75,8 @@ impl Writer<'_> {
     fn word_instead(
         &self,
         axis: usize,
-        (word, how): (&Coordinate, How),
+        word: &Coordinate,
+        how: How,
         from: f64,
         to: f64,
     ) -> Option<(String, f64)> {
@@ -86,7 +87,7 @@ impl Writer<'_> {
             How::Rotary => {
                 let before = self.file.part(&(word.whole.start..word.number.start));
                 let shape = before.to_ascii_uppercase();
-                let turn = self.angle_text(axis, (word, how), from, to).reached_deg - from;
+                let turn = self.angle_text(axis, word, how, from, to).reached_deg - from;
                 match (shape.starts_with(b"ACP"), shape.starts_with(b"ACN")) {
                     (true, _) => end_of_way_round(turn),
                     (_, true) => end_of_way_round(-turn),
@@ -135,7 +136,8 @@ impl Writer<'_> {
     fn angle_text(
         &self,
         axis: usize,
-        (word, how): (&Coordinate, How),
+        word: &Coordinate,
+        how: How,
         from: f64,
         to: f64,
     ) -> AngleText {
@@ -213,14 +215,14 @@ impl Writer<'_> {
             let from = start[axis] + self.held.turned_deg[axis];
             let reached = match self.word_of(axis) {
                 Some((word, how)) => {
-                    let instead = self.word_instead(axis, (word, how), from, wanted[axis]);
+                    let instead = self.word_instead(axis, word, how, from, wanted[axis]);
                     if let Some((text, reached)) = instead {
                         self.edits.replace(word.word.clone(), text);
                         self.hold(axis, reached - end[axis]);
                         continue;
                     }
                     let span = word.number.clone();
-                    let made = self.angle_text(axis, (word, how), from, wanted[axis]);
+                    let made = self.angle_text(axis, word, how, from, wanted[axis]);
                     if made.text.as_bytes() != self.file.part(&span) {
                         self.edits.replace(span, made.text);
                     }
@@ -247,13 +249,13 @@ impl Writer<'_> {
             let from = end[axis] + self.held.turned_deg[axis];
             let found = match self.word_of(axis) {
                 Some((word, how)) if (wanted[axis] - from).abs() > SAME_DEG => {
-                    let instead = self.word_instead(axis, (word, how), from, wanted[axis]);
+                    let instead = self.word_instead(axis, word, how, from, wanted[axis]);
                     if let Some((text, reached)) = instead {
                         line.push_str(&format!(" {text}"));
                         self.hold(axis, reached - end[axis]);
                         continue;
                     }
-                    let made = self.angle_text(axis, (word, how), from, wanted[axis]);
+                    let made = self.angle_text(axis, word, how, from, wanted[axis]);
                     let part = |from: usize, to: usize| {
                         String::from_utf8_lossy(self.file.part(&(from..to))).into_owned()
                     };
@@ -298,7 +300,7 @@ impl Writer<'_> {
                 continue;
             };
             let (from, to) = (start[*axis] + off, end[*axis]);
-            if let Some((text, _)) = self.word_instead(*axis, (word, *how), from, to) {
+            if let Some((text, _)) = self.word_instead(*axis, word, *how, from, to) {
                 self.edits.replace(word.word.clone(), text);
             }
         }

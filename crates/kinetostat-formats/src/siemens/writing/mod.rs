@@ -1,11 +1,10 @@
 //! Conversion of motions to blocks.
 //!
-//! [`mod@write`] goes through the motions; what changes becomes [`pieces`], with the tool's [`direction`] or the [`angles`] of
-//! rotary axes where the text states them. What
+//! [`mod@write`] goes through the motions; their pieces become blocks with the tool's [`place`] and direction, or the
+//! [`angles`] of rotary axes where the text states them. What
 //! is in force in the written program stands in [`writer`].
 
 pub(crate) mod angles;
-pub(crate) mod direction;
-pub(crate) mod pieces;
+pub(crate) mod place;
 pub(crate) mod write;
 pub(crate) mod writer;

@@ -2,14 +2,13 @@
 
 use nalgebra::{Point3, Vector3};
 
-use crate::axis_count::CountShown;
 use crate::model::motion::Motion;
 use crate::options::WriteOptions;
 use crate::siemens::state::Code;
 use crate::siemens::walker::Written;
-use crate::text::edits::Edits;
 use crate::text::number::short;
-use crate::text::source::SourceFile;
+use crate::text::source::{Edits, SourceFile};
+use crate::turned_axis::CountShown;
 
 /// Reason and remedy of a motion that cannot be written.
 pub(crate) type Reason = (&'static str, &'static str);
