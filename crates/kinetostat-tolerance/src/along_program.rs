@@ -1,7 +1,7 @@
 //! Machines as functions of uncertain numbers, along a program: commanded by the program as it is, and by the one that was written for the
 //! machine as drawn.
 
-use kinetostat::batch::{Batch, BatchEquilibrium, Commanded, Details};
+use kinetostat::batch::{Batch, BatchEquilibrium, Commanded, Details, LoadedBatch};
 use kinetostat::nalgebra::Vector3;
 use kinetostat::number::larger;
 use kinetostat::{Mechanism, Pose, Wrench};
@@ -88,7 +88,8 @@ impl UncertainRun {
         model: &Model,
         tools: &[(Option<u32>, Pose)],
         file: &UncertaintyFile,
-        (places, compensated): (&[ProgramPlace], bool),
+        places: &[ProgramPlace],
+        compensated: bool,
         parts: Option<CuttingParts>,
     ) -> Result<Self, TaskError> {
         let parametric = model.parametric(&file.parameters())?;
@@ -176,7 +177,8 @@ impl UncertainRun {
             if i >= MOST_DERIVATIVES {
                 continue;
             }
-            let [more, less] = [&more, &less].map(|(batch, loads)| (batch, &loads[..]));
+            let [more, less] =
+                [&more, &less].map(|(batch, wrenches)| LoadedBatch { batch, wrenches });
             own.programmed.go_along(more, less, 2.0 * step)?;
             if self.compensated {
                 own.commanded.go_along(more, less, 2.0 * step)?;

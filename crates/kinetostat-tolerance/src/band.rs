@@ -20,7 +20,8 @@ const BAND: [f64; 3] = [0.05, 0.5, 0.95];
 pub fn band(
     run: &UncertainRun,
     file: &UncertaintyFile,
-    (name, seed): (&str, u64),
+    name: &str,
+    seed: u64,
     draws: &Draws,
     watch: &dyn Watch,
 ) -> Result<UncertaintyBand, TaskError> {

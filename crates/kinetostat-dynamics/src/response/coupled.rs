@@ -33,7 +33,8 @@ impl LinearDynamics {
         &self,
         modes: &Modes,
         damping: &Damping,
-        (motions, count): (&DMatrix<f64>, usize),
+        motions: &DMatrix<f64>,
+        count: usize,
     ) -> Result<Option<CoupledDamping>> {
         let holds = modes.counts.free + modes.counts.unstable + modes.counts.neutral == 0;
         let is_viscous = !matches!(damping, Damping::Structural { .. });

@@ -102,7 +102,7 @@ impl ModalResponse {
         }
         let residual = dynamics.flexibility(modes, &b_at, &b_from, &terms, kept)?;
         terms.truncate(kept.max(modes.counts.free + modes.counts.unstable));
-        let coupling = dynamics.coupled_damping(modes, damping, (&b_at, terms.len()))?;
+        let coupling = dynamics.coupled_damping(modes, damping, &b_at, terms.len())?;
         Ok(Self {
             terms,
             residual,

@@ -58,12 +58,13 @@ impl Commanded {
     /// As [`Batch::equilibrium`].
     pub fn go_along(
         &mut self,
-        more: (&Batch, &[Wrench]),
-        less: (&Batch, &[Wrench]),
+        more: LoadedBatch<'_>,
+        less: LoadedBatch<'_>,
         apart: f64,
     ) -> Result<()> {
-        let at = |(batch, wrenches): (&Batch, &[Wrench])| {
-            batch.standing(&self.places(batch, &[]), wrenches)
+        let at = |own: LoadedBatch<'_>| {
+            let places = self.places(own.batch, &[]);
+            own.batch.standing(&places, own.wrenches)
         };
         let (more, less) = (at(more)?, at(less)?);
         let Some(standing) = &mut self.standing else {
@@ -89,6 +90,15 @@ impl Commanded {
         standing.slopes.push(slope);
         Ok(())
     }
+}
+
+/// Machine with the wrenches on its tool.
+#[derive(Clone, Copy, Debug)]
+pub struct LoadedBatch<'a> {
+    /// The machine.
+    pub batch: &'a Batch,
+    /// Wrench at each of the places, N and N m.
+    pub wrenches: &'a [Wrench],
 }
 
 impl Batch {

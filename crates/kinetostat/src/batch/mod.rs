@@ -36,7 +36,7 @@ mod stiffness;
 mod table;
 mod targets;
 
-pub use commanded::Commanded;
+pub use commanded::{Commanded, LoadedBatch};
 pub use compiled::Batch;
 pub use equilibria::{BatchEquilibrium, BatchTargets, Details, PostureStability};
 pub use models::over_machines;

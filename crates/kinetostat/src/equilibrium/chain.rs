@@ -1,7 +1,7 @@
 //! The equilibrium of one chain: directly, by growing the load, or from another start.
 
 use crate::chain::directions::DirectionKind;
-use crate::chain::equilibrium::Equilibrium;
+use crate::chain::equilibrium::{Equilibrium, Solution};
 use crate::chain::found_by::FoundBy;
 use crate::chain::newton::{Attempt, EndPath};
 use crate::chain::problem::{ChainProblem, Prescribed, check_problem};
@@ -60,7 +60,12 @@ pub fn solve_along(
         let mut x: Vec<f64> = nudged(chain, &problem.posture, nudge);
         let mut wrench = Wrench::zero();
         match attempt.newton(&mut x, &mut wrench, 1.0, lagged) {
-            Ok((iterations, norms)) => Some((x, wrench, iterations, norms)),
+            Ok((iterations, norms)) => Some(Solution {
+                coordinates: x,
+                wrench,
+                iterations,
+                norms,
+            }),
             Err((iterations, _)) => {
                 spent += iterations;
                 None
@@ -69,29 +74,24 @@ pub fn solve_along(
     };
     // Starts as given; then slightly out of line, because a straight or flat posture has no linear answer.
     for nudge in [0.0, 1e-3, 3e-2] {
-        let Some((x, wrench, iterations, norms)) = direct(&mut attempt, nudge) else {
+        let Some(solution) = direct(&mut attempt, nudge) else {
             continue;
         };
-        let mut found = attempt.finish(x, wrench, iterations, &norms);
-        if nudge != 0.0 {
-            found.0.found_by = FoundBy::OutOfLine;
-        }
+        let by = match nudge == 0.0 {
+            true => FoundBy::Directly,
+            false => FoundBy::OutOfLine,
+        };
+        let found = attempt.finish(solution, by);
         return Ok(by_growing_load(problem, settings, method, &found.0).unwrap_or(found));
     }
     let mut failure = match grow_load(&mut attempt, false, 1.0) {
-        Ok((x, wrench, iterations, norms)) => {
-            let found = attempt.finish(x, wrench, iterations, &norms);
-            return Ok(found_by(found, FoundBy::GrowingLoad));
-        }
+        Ok(solution) => return Ok(attempt.finish(solution, FoundBy::GrowingLoad)),
         Err(failure) => failure,
     };
     // The chain is pressed on a straight path to a bent shape, and buckles; on a screw it is pulled.
     if problem.end.prescribed == [Prescribed::Pose; 6] {
         match grow_load(&mut attempt, true, 1.0) {
-            Ok((x, wrench, iterations, norms)) => {
-                let found = attempt.finish(x, wrench, iterations, &norms);
-                return Ok(found_by(found, FoundBy::GrowingLoad));
-            }
+            Ok(solution) => return Ok(attempt.finish(solution, FoundBy::GrowingLoad)),
             Err(other) => {
                 failure.iterations += other.iterations;
                 if other.share > failure.share {
@@ -105,9 +105,8 @@ pub fn solve_along(
     }
     // The path from rest may end at a fold although equilibria exist elsewhere.
     for nudge in [0.3, 0.8, 1.5, 2.5] {
-        if let Some((x, wrench, iterations, norms)) = direct(&mut attempt, nudge) {
-            let found = attempt.finish(x, wrench, iterations, &norms);
-            return Ok(found_by(found, FoundBy::OtherStart));
+        if let Some(solution) = direct(&mut attempt, nudge) {
+            return Ok(attempt.finish(solution, FoundBy::OtherStart));
         }
     }
     if let Some(reason) = crate::equilibrium::no_equilibrium::why(problem) {
@@ -123,12 +122,6 @@ pub fn solve_along(
         last: failure.last,
         limit: None,
     })
-}
-
-/// Records the method by which an equilibrium was found.
-fn found_by(mut found: (Equilibrium, ChainMethod), by: FoundBy) -> (Equilibrium, ChainMethod) {
-    found.0.found_by = by;
-    found
 }
 
 /// Progress of the growing load.
@@ -155,10 +148,9 @@ fn by_growing_load(
         return None;
     }
     let mut attempt = Attempt::new(problem, settings, method);
-    let (x, wrench, iterations, norms) = grow_load(&mut attempt, false, SHORT_STEP).ok()?;
-    let spent = found.residual.iterations + iterations;
-    let grown = attempt.finish(x, wrench, spent, &norms);
-    let grown = found_by(grown, FoundBy::GrowingLoad);
+    let mut solution = grow_load(&mut attempt, false, SHORT_STEP).ok()?;
+    solution.iterations += found.residual.iterations;
+    let grown = attempt.finish(solution, FoundBy::GrowingLoad);
     stays(problem, settings, &grown.0).then_some(grown)
 }
 
@@ -181,7 +173,7 @@ fn grow_load(
     attempt: &mut Attempt<'_, '_>,
     on_screw: bool,
     longest: f64,
-) -> std::result::Result<(Vec<f64>, Wrench, usize, ResidualNorms), Failure> {
+) -> std::result::Result<Solution, Failure> {
     let problem = attempt.problem;
     let mut x = nudged(problem.chain, &problem.posture, aside(longest));
     let mut wrench = Wrench::zero();
@@ -221,5 +213,10 @@ fn grow_load(
             }
         }
     }
-    Ok((x, wrench, iterations, last))
+    Ok(Solution {
+        coordinates: x,
+        wrench,
+        iterations,
+        norms: last,
+    })
 }

@@ -246,7 +246,8 @@ pub(crate) fn conclude(
         .map(|i| solver.stiffness_and_stability(i))
         .collect();
     let limbs = stiffness_and_stability.into_iter().enumerate();
-    let limbs = limbs.map(|(i, found)| limb_equilibrium(solver, i, found));
+    let limbs =
+        limbs.map(|(i, (stiffness, stability))| limb_equilibrium(solver, i, stiffness, stability));
     let limbs: Vec<LimbEquilibrium> = limbs.collect::<Result<_>>()?;
     let outside = potential_of_platforms(solver);
     let energy = limbs.iter().fold(outside, |sum, limb| {
@@ -289,7 +290,8 @@ pub(crate) fn conclude(
 fn limb_equilibrium(
     solver: &PlatformSolver<'_>,
     i: usize,
-    (stiffness, stability): (ChainStiffness, ShapeStability),
+    stiffness: ChainStiffness,
+    stability: ShapeStability,
 ) -> Result<LimbEquilibrium> {
     let limb = &solver.mechanism.limbs()[i];
     let system = solver.limb_system(i);

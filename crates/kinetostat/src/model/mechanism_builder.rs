@@ -96,7 +96,11 @@ impl MechanismBuilder {
     /// # let hook = machine.platform(Platform { mass: 40.0, ..Platform::new("hook", home) });
     /// // A spring from the base, straight under the hook, pulls it down; a wire pulls the carriage aside.
     /// let law = LengthLaw::Linear { stiffness: 2e4, free_length: 0.4, preload: 0.0 }; // N/m, m, N
-    /// let spring = PlatformLoad::strut((0, vector![0.3, 0.2, 0.0]), (hook, Vector3::zeros()), law);
+    /// let spring = PlatformLoad::strut(
+    ///     Anchor::on_platform(0, vector![0.3, 0.2, 0.0]),
+    ///     Anchor::on_platform(hook, Vector3::zeros()),
+    ///     law,
+    /// );
     /// let pull = Wrench::new(vector![250.0, 0.0, 0.0], Vector3::zeros()); // N
     /// let point = vector![0.0, 0.1, 0.0]; // m
     /// let wire = PlatformLoad::Wrench { platform: carriage, point, wrench: pull, turns: false };

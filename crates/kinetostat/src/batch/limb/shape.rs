@@ -369,7 +369,7 @@ impl<S: Simd> Shape<S> {
                     reflect(k..6, &v, &u, other);
                 }
                 for c in 0..springs {
-                    reflect_apart(k..6, &v, &u, &mut self.t, (c, springs));
+                    reflect_apart(k..6, &v, &u, &mut self.t, c, springs);
                 }
             }
             if joints == 0 {

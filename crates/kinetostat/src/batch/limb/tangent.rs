@@ -103,7 +103,7 @@ pub(crate) fn stiffness<S: Simd>(
                     let c = compliance(simd, limb, spring, &mut law, &mut pass.regular);
                     match &spring.own_weight {
                         None => pass.spring(plan, limb, spring, &c),
-                        Some(own) => pass.segment(plan, limb, (spring, own), &c, gravity),
+                        Some(own) => pass.segment(plan, limb, spring, own, &c, gravity),
                     }
                 }
                 Step::Shift(_) | Step::Rotate(_) => {}

@@ -127,7 +127,8 @@ impl<S: Simd> Pass<S> {
         &mut self,
         plan: &Plan,
         limb: &LoadedLimb<S>,
-        (spring, own): (&Spring, &OwnWeight),
+        spring: &Spring,
+        own: &OwnWeight,
         c: &Mat6<S>,
         gravity: &[f64; 3],
     ) {

@@ -88,15 +88,15 @@ impl<S: Simd> ForwardPass<S> {
                             _ => None,
                         };
                         let amount = amount(simd, &joint.amount, commands, coordinate);
-                        let known = match &self.known {
+                        let (s, c) = match &self.known {
                             Some((first, known)) if i.wrapping_sub(*first) < 2 => known[i - first],
                             _ if joint.kind == MotionKind::Revolute => amount.sin_cos(),
                             _ => (amount, amount),
                         };
                         match joint.axis {
-                            0 => self.joint::<0>(joint, amount, known, yields),
-                            1 => self.joint::<1>(joint, amount, known, yields),
-                            _ => self.joint::<2>(joint, amount, known, yields),
+                            0 => self.joint::<0>(joint, amount, s, c, yields),
+                            1 => self.joint::<1>(joint, amount, s, c, yields),
+                            _ => self.joint::<2>(joint, amount, s, c, yields),
                         }
                     }
                     Step::Spring(spring) if yields => {
@@ -140,7 +140,8 @@ impl<S: Simd> ForwardPass<S> {
         &mut self,
         joint: &Joint,
         amount: Lanes<S>,
-        (s, c): (Lanes<S>, Lanes<S>),
+        s: Lanes<S>,
+        c: Lanes<S>,
         yields: bool,
     ) {
         let axis = column(&self.rotation, AXIS);

@@ -38,7 +38,8 @@ impl<S: Simd> Machine<S> {
     pub fn look_back(
         &mut self,
         simd: S,
-        (place, load): (&Target<S>, &[Lanes<S>; 6]),
+        place: &Target<S>,
+        load: &[Lanes<S>; 6],
         lost: Lanes<S>,
     ) -> Lanes<S> {
         apart!(simd, {

@@ -31,6 +31,15 @@ pub(crate) fn bounded<S: Simd>(simd: S, commands: &[Lanes<S>]) -> Lanes<S> {
     good
 }
 
+/// Mass of the platform that carries the tool.
+#[derive(Clone, Copy)]
+pub(crate) struct PlatformMass {
+    /// Centre of mass, m, axes of the tool.
+    pub centre: [f64; 3],
+    /// Mass, kg.
+    pub mass: f64,
+}
+
 /// A machine with the buffers of its limbs.
 pub(crate) struct Machine<S: Simd> {
     pub nominal: Arc<[Plan]>,
@@ -44,8 +53,7 @@ pub(crate) struct Machine<S: Simd> {
     pub attached: Vec<AttachedLimb<S>>,
     /// Inverse of the unloaded stiffness of the platform.
     pub compliance: Symmetric<S>,
-    /// Centre of mass (m, axes of the tool) and mass of the platform.
-    pub body: ([f64; 3], f64),
+    pub body: PlatformMass,
     pub gravity: [f64; 3],
     /// Target of the unloaded machine for which `attached` and `compliance` were computed, and the smallest relative
     /// pivot there.
@@ -76,7 +84,7 @@ impl<S: Simd> Machine<S> {
         simd: S,
         nominal: &Arc<[Plan]>,
         actual: &Arc<[Plan]>,
-        body: ([f64; 3], f64),
+        body: PlatformMass,
         gravity: [f64; 3],
     ) -> Self {
         let plans = || nominal.iter().zip(actual.iter());
@@ -128,7 +136,7 @@ impl<S: Simd> Machine<S> {
         &mut self,
         nominal: &Arc<[Plan]>,
         actual: &Arc<[Plan]>,
-        body: ([f64; 3], f64),
+        body: PlatformMass,
         gravity: [f64; 3],
     ) {
         if !Arc::ptr_eq(&self.nominal, nominal) {
@@ -175,6 +183,6 @@ impl<S: Simd> Machine<S> {
 
     /// One limb without passive joints: its tip goes where the wrench leads.
     pub fn is_serial(&self) -> bool {
-        self.actual.len() == 1 && self.actual[0].passive.is_empty() && self.body.1 == 0.0
+        self.actual.len() == 1 && self.actual[0].passive.is_empty() && self.body.mass == 0.0
     }
 }

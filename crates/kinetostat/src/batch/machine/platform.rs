@@ -162,10 +162,10 @@ impl<S: Simd> Machine<S> {
     fn borne(&self, simd: S, wrench: &[Lanes<S>; 6]) -> [Lanes<S>; 6] {
         let mut weight = constant(simd, &self.gravity);
         for x in &mut weight {
-            *x = *x * self.body.1;
+            *x = *x * self.body.mass;
         }
         let nowhere = [Lanes::new(simd, 0.0); 3];
-        let arm = carried(&self.rotation, &constant(simd, &self.body.0), &nowhere);
+        let arm = carried(&self.rotation, &constant(simd, &self.body.centre), &nowhere);
         let lever = cross(&arm, &weight);
         let mut all = *wrench;
         for k in 0..3 {

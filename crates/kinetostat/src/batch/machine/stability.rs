@@ -3,7 +3,7 @@
 use pulp::Simd;
 
 use crate::batch::limb::tangent;
-use crate::batch::machine::loaded::Machine;
+use crate::batch::machine::loaded::{Machine, PlatformMass};
 use crate::batch::numbers::apart::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::symmetric::{AT, Symmetric};
@@ -27,7 +27,7 @@ impl<S: Simd> Machine<S> {
                 }
             }
         }
-        let (centre, mass) = &self.body;
+        let PlatformMass { centre, mass } = &self.body;
         if *mass != 0.0 {
             let [x, y, z] = &self.gravity;
             let weight = constant(simd, &[x * mass, y * mass, z * mass]);

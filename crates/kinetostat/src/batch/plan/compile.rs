@@ -62,8 +62,7 @@ impl Plan {
         let sphere = sphere(&writer.steps, &writer.screws);
         let joints = passive.len();
         let search = |rows, passive, end| {
-            let drives = (passive_drives.as_slice(), command_drives.as_slice());
-            writer.search(rows, passive, end, drives)
+            writer.search(rows, passive, end, &passive_drives, &command_drives)
         };
         let searches = match &sphere {
             None => vec![search(Rows::Both, 0..joints, writer.steps.len())],
@@ -160,7 +159,8 @@ impl Writer<'_> {
         rows: Rows,
         passive: std::ops::Range<usize>,
         end: usize,
-        (passive_drives, command_drives): (&[Drive], &[Drive]),
+        passive_drives: &[Drive],
+        command_drives: &[Drive],
     ) -> Search {
         let mut drives = Vec::new();
         let mut most = [self.chain.scale().length; 6];

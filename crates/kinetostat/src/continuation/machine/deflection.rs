@@ -101,6 +101,7 @@ impl Posture {
     /// # Ok::<(), Error>(())
     /// ```
     pub fn rest_under(&self, wrench: &Wrench, start: MechanismState) -> Result<MechanismState> {
-        self.stable_state(wrench, self.converged_solver(wrench, start)?)
+        let (solver, residual) = self.converged_solver(wrench, start)?;
+        self.stable_state(wrench, solver, residual)
     }
 }

@@ -3,6 +3,7 @@
 
 use crate::chain::found_by::FoundBy;
 use crate::chain::problem::EndCondition;
+use crate::chain::residual::Residual;
 use crate::chain::scaling::{FAR, SHORT_STEP, gone};
 use crate::continuation::machine::free_motion::{Converged, NoRest};
 use crate::continuation::machine::tool_conditions::ToolConditions;
@@ -11,6 +12,7 @@ use crate::continuation::settings::CurveSettings;
 use crate::error::{Error, LoadLimit, Result};
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
 use crate::machine::platforms::parts::Unknowns;
+use crate::machine::platforms::solver::PlatformSolver;
 use crate::machine::posture::Posture;
 use crate::machine::state::{MechanismState, check_state};
 use crate::number::largest_size;
@@ -155,7 +157,7 @@ impl Posture {
     fn rest_without_wrench(&self) -> Result<MechanismState> {
         let none = Wrench::zero();
         match self.reached_directly(&none, self.rest_state()) {
-            Ok(found) => self.stable_state(&none, found),
+            Ok((solver, residual)) => self.stable_state(&none, solver, residual),
             Err(reason) => Err(self.no_rest(*reason, &none)),
         }
     }
@@ -164,7 +166,8 @@ impl Posture {
     pub(crate) fn stable_state(
         &self,
         wrench: &Wrench,
-        (mut solver, residual): Converged<'_>,
+        mut solver: PlatformSolver<'_>,
+        residual: Residual,
     ) -> Result<MechanismState> {
         if !self.is_far(&solver.state) {
             return Ok(solver.state);

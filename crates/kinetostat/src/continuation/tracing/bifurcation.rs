@@ -11,7 +11,7 @@ use crate::continuation::curve_equilibrium::CurveStability;
 use crate::continuation::linear::null_directions::NullDirections;
 use crate::continuation::linear::tangent::Tangent;
 use crate::continuation::tracing::describe::describe;
-use crate::continuation::tracing::segment::{Segment, largest_one};
+use crate::continuation::tracing::segment::{Sample, Segment, largest_one};
 use crate::continuation::tracing::singular_point::{refine, tangents};
 use crate::continuation::tracing::system::{Corrected, CurveSystem, SpecialPoint};
 
@@ -93,7 +93,10 @@ fn by_determinant<S: CurveSystem>(
 ) -> f64 {
     let reference = before.logarithm.max(after.logarithm);
     let value = move |t: &Tangent| t.sign * (t.logarithm - reference).exp();
-    let (low, high) = ((0.0, value(before)), (1.0, value(after)));
+    let (low, high) = (
+        Sample::new(0.0, value(before)),
+        Sample::new(1.0, value(after)),
+    );
     segment.root(system, low, high, 1e-9, &move |_, _, t| value(t))
 }
 
