@@ -18,7 +18,7 @@ const MOST: usize = 3;
 pub(crate) fn maps(
     space: &Space,
     best: &Place,
-    worth: &(impl Fn(&Place) -> Value + Sync),
+    worth: impl Fn(&Place) -> Value + Sync,
 ) -> Vec<MapPanel> {
     let ranges = space.ranges();
     let values = |k: usize, count: usize| -> Vec<f64> {

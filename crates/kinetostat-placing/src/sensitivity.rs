@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
+use crate::answer::Evaluated;
 use crate::answer::{Sensitivity, SideSensitivity};
-use crate::refine::Worth;
 use crate::space::{Place, Space};
 use crate::value::Value;
 
@@ -19,25 +19,27 @@ const HALVINGS: usize = 8;
 
 pub(crate) fn sensitivity(
     space: &Space,
-    best: &Worth,
-    worth: &(impl Fn(&Place) -> Value + Sync),
+    best: &Evaluated,
+    worth: impl Fn(&Place) -> Value + Sync,
 ) -> Vec<Sensitivity> {
     let variables: Vec<usize> = (0..space.ranges().len()).collect();
     let one = |k: &usize| Sensitivity {
         variable: space.ranges()[*k].variable,
-        down: side(space, best, (*k, -1.0), worth),
-        up: side(space, best, (*k, 1.0), worth),
+        down: side(space, best, *k, -1.0, &worth),
+        up: side(space, best, *k, 1.0, &worth),
     };
     variables.par_iter().map(one).collect()
 }
 
 fn side(
     space: &Space,
-    (best, value): &Worth,
-    (k, sign): (usize, f64),
-    worth: &(impl Fn(&Place) -> Value + Sync),
+    best: &Evaluated,
+    k: usize,
+    sign: f64,
+    worth: impl Fn(&Place) -> Value + Sync,
 ) -> SideSensitivity {
     let range = space.ranges()[k];
+    let (best, value) = (&best.place, &best.value);
     let figure = value.figure().unwrap_or(f64::NAN);
     let room = match sign > 0.0 {
         true => range.to - best.values[k],

@@ -194,7 +194,8 @@ fn farthest(limb: &Limb, joints: &[Joint], value: &dyn Fn(&[f64], &[f64]) -> f64
                     coordinates[joint.index]
                 };
                 let mut f = |x: f64| at(joint, x, &mut commands, &mut coordinates);
-                let found = largest_in_range(joint.range, here, &mut f);
+                let (low, high) = joint.range;
+                let found = largest_in_range(low, high, here, &mut f);
                 reached = f(found);
             }
             if reached <= before * (1.0 + 1e-10) || steps > MOST_STEPS {
@@ -210,7 +211,7 @@ fn farthest(limb: &Limb, joints: &[Joint], value: &dyn Fn(&[f64], &[f64]) -> f64
 const VALUES: usize = 98;
 
 /// Maximises a smooth function over a range: samples, then a ternary search around the best one.
-fn largest_in_range((low, high): (f64, f64), here: f64, f: &mut dyn FnMut(f64) -> f64) -> f64 {
+fn largest_in_range(low: f64, high: f64, here: f64, f: &mut dyn FnMut(f64) -> f64) -> f64 {
     const SAMPLES: usize = 12;
     let step = (high - low) / SAMPLES as f64;
     let mut best = (here, f(here));

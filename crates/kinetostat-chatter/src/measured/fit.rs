@@ -62,7 +62,7 @@ pub struct Fit {
 /// # Errors
 /// No curve, curves at different frequencies, no mode, too few frequencies in the band, and a fit that finds fewer modes
 /// than asked.
-pub fn fit_modes(responses: &[MeasuredResponse], modes: usize, band_hz: (f64, f64)) -> Result<Fit> {
+pub fn fit_modes(responses: &[MeasuredResponse], modes: usize, band_hz: [f64; 2]) -> Result<Fit> {
     let (frequencies, curves) = table(responses, modes, band_hz)?;
     let all = rational::poles(&frequencies, &curves, modes, EXTRA).ok_or_else(|| {
         ChatterError::new(
@@ -77,7 +77,7 @@ pub fn fit_modes(responses: &[MeasuredResponse], modes: usize, band_hz: (f64, f6
     for pole in all.into_iter().filter(|pole| pole.im > 0.0) {
         let hz = pole.norm() / TAU;
         let damping = -pole.re / pole.norm();
-        let within = (band_hz.0..=band_hz.1).contains(&hz);
+        let within = (band_hz[0]..=band_hz[1]).contains(&hz);
         match within && damping > 0.0 && damping < MOST_DAMPED {
             true => poles.push(pole),
             false => left_out_hz.push(hz),
@@ -108,7 +108,7 @@ pub fn fit_modes(responses: &[MeasuredResponse], modes: usize, band_hz: (f64, f6
 fn table(
     responses: &[MeasuredResponse],
     modes: usize,
-    (low, high): (f64, f64),
+    [low, high]: [f64; 2],
 ) -> Result<(Vec<f64>, DMatrix<Complex64>)> {
     let fault = |quantity: &str, found: String, expected: &str| {
         let kind = ChatterErrorKind::Measurement;

@@ -180,7 +180,7 @@ impl ToolResponse {
         let coupling = self.coupling.as_ref();
         Self {
             residual: springs.fold(self.residual, spring),
-            coupling: coupling.and_then(|coupling| coupling.of((&modes, kept))),
+            coupling: coupling.and_then(|coupling| coupling.of(&modes, kept)),
             modes,
         }
     }

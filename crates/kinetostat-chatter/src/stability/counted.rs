@@ -32,7 +32,7 @@ impl Regeneration {
     /// # Errors
     /// A speed or a depth that is not positive, and modes too fast for the speed ([`crate::ToolResponse::with_modes_up_to`]).
     pub fn stability_at(&self, speed_rpm: f64, up_to: f64) -> Result<SpeedStability> {
-        self.stability_beyond(None, speed_rpm, (up_to, Search::All))
+        self.stability_beyond(None, speed_rpm, up_to, Search::All)
     }
 
     /// Continues [`Self::stability_at`] at the speed of `known`, a result for this cut up to a smaller depth: if it has
@@ -45,7 +45,7 @@ impl Regeneration {
         known: &SpeedStability,
         up_to: f64,
     ) -> Result<SpeedStability> {
-        self.stability_beyond(Some(known), known.speed_rpm, (up_to, Search::All))
+        self.stability_beyond(Some(known), known.speed_rpm, up_to, Search::All)
     }
 
     /// Finds the limit like [`Self::stability_at`] or, with a result for smaller depths, [`Self::stability_continued`]:
@@ -59,7 +59,7 @@ impl Regeneration {
         speed_rpm: f64,
         up_to: f64,
     ) -> Result<SpeedStability> {
-        self.stability_beyond(known, speed_rpm, (up_to, Search::First))
+        self.stability_beyond(known, speed_rpm, up_to, Search::First)
     }
 
     /// True if the cut is unstable at a spindle speed (rpm) and a depth (m), by one look at its largest multiplier. False where it
@@ -93,13 +93,14 @@ impl Regeneration {
         &self,
         known: Option<&SpeedStability>,
         speed_rpm: f64,
-        (up_to, search): (f64, Search),
+        up_to: f64,
+        search: Search,
     ) -> Result<SpeedStability> {
         checked_speed(speed_rpm)?;
         checked_depth(up_to)?;
         match self.selected() {
-            Some(selected) => self.stability_of(selected, known, speed_rpm, (up_to, search)),
-            None => self.stability_of_all(known, speed_rpm, (up_to, search)),
+            Some(selected) => self.stability_of(selected, known, speed_rpm, up_to, search),
+            None => self.stability_of_all(known, speed_rpm, up_to, search),
         }
     }
 
@@ -110,7 +111,8 @@ impl Regeneration {
         selected: &Selected,
         known: Option<&SpeedStability>,
         speed_rpm: f64,
-        (up_to, search): (f64, Search),
+        up_to: f64,
+        search: Search,
     ) -> Result<SpeedStability> {
         let Selected { selection, usual } = selected;
         let resolved = match selection.automatic {
@@ -120,10 +122,10 @@ impl Regeneration {
         let mut count = selection.count.min(resolved);
         loop {
             let found = match count == selection.count {
-                true => usual.stability_of_all(known, speed_rpm, (up_to, search))?,
+                true => usual.stability_of_all(known, speed_rpm, up_to, search)?,
                 false => self
                     .lowest(count)
-                    .stability_of_all(known, speed_rpm, (up_to, search))?,
+                    .stability_of_all(known, speed_rpm, up_to, search)?,
             };
             let reach = found.limit().map_or(up_to, |limit| limit.depth);
             let could = |mode: &Known| mode.alone < reach;

@@ -33,7 +33,8 @@ const FRESH: f64 = 1e-4;
 /// largest: one is followed by inverse iteration as the space grows, until its residual is small, and then the QR iteration
 /// says whether there is a larger one.
 pub(crate) fn largest(
-    (size, states): (usize, usize),
+    size: usize,
+    states: usize,
     accuracy: f64,
     last: &mut Option<DVector<f64>>,
     mut apply: impl FnMut(&DVector<f64>) -> Result<DVector<f64>>,

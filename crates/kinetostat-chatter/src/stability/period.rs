@@ -35,7 +35,8 @@ pub(crate) struct Period {
 impl Period {
     /// The period of a cut at a speed and, for helical teeth, a depth, with `fineness` times the usual points.
     pub(crate) fn new(
-        (response, states): (&ToolResponse, Vec<State>),
+        response: &ToolResponse,
+        states: Vec<State>,
         cut: &Cut,
         speed_rpm: f64,
         depth: f64,
@@ -56,10 +57,9 @@ impl Period {
                     .collect();
                 let cutting = match piece.active.is_empty() {
                     true => None,
-                    false => {
-                        let of = (piece, begins, duration);
-                        Some(Cutting::new(response, cut, of, &states, fineness)?)
-                    }
+                    false => Some(Cutting::new(
+                        response, cut, piece, begins, duration, &states, fineness,
+                    )?),
                 };
                 Ok(Stretch { decay, cutting })
             })
@@ -108,7 +108,9 @@ impl Cutting {
     pub(crate) fn new(
         response: &ToolResponse,
         cut: &Cut,
-        (piece, begins, duration): (&Piece, f64, f64),
+        piece: &Piece,
+        begins: f64,
+        duration: f64,
         states: &[State],
         fineness: f64,
     ) -> Result<Self> {

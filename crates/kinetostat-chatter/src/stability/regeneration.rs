@@ -243,7 +243,8 @@ impl Regeneration {
         }
         let states = self.states.clone()?;
         Period::new(
-            (&self.response, states),
+            &self.response,
+            states,
             &self.cut,
             speed_rpm,
             depth,

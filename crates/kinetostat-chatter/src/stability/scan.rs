@@ -55,7 +55,8 @@ impl Regeneration {
         &self,
         known: Option<&SpeedStability>,
         speed_rpm: f64,
-        (up_to, search): (f64, Search),
+        up_to: f64,
+        search: Search,
     ) -> Result<SpeedStability> {
         let modes = self.response().modes().iter();
         let modes_up_to_hz = modes.map(Mode::frequency_hz).fold(0.0, larger);

@@ -24,7 +24,8 @@ impl CutForce {
     pub(crate) fn add(
         &mut self,
         place: &Meridian,
-        (sin_phi, cos_phi): (f64, f64),
+        sin_phi: f64,
+        cos_phi: f64,
         of: EdgeForce,
         width: f64,
     ) {

@@ -104,7 +104,7 @@ impl<L: ForceLaw + ?Sized> Milling<'_, L> {
             breaks.push(contact.exit);
             breaks.sort_unstable_by(f64::total_cmp);
             for pair in breaks.windows(2) {
-                self.add_smooth_arc(tooth, place, (pair[0], pair[1]), width * tooth.alike, sum);
+                self.add_smooth_arc(tooth, place, [pair[0], pair[1]], width * tooth.alike, sum);
             }
         }
     }
@@ -113,7 +113,7 @@ impl<L: ForceLaw + ?Sized> Milling<'_, L> {
         &self,
         tooth: &Tooth,
         place: &Meridian,
-        (from, to): (f64, f64),
+        [from, to]: [f64; 2],
         width: f64,
         sum: &mut CutForce,
     ) {
@@ -129,7 +129,7 @@ impl<L: ForceLaw + ?Sized> Milling<'_, L> {
                 let (sin, cos) = phi.sin_cos();
                 let chip = tooth.thickness(&self.feed, place, sin);
                 if chip > 0.0 {
-                    sum.add(place, (sin, cos), self.law.edge_force(chip), width * weight);
+                    sum.add(place, sin, cos, self.law.edge_force(chip), width * weight);
                 }
             });
         }

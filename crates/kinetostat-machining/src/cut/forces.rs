@@ -249,8 +249,14 @@ impl CutQuestion {
                 rpm: drive.rpm,
             };
             self.below_stock(motion, met, &drive, findings);
-            let place = (&station, &met.engagement);
-            self.look_at(place, (&drive, feed), motion.line, findings);
+            self.look_at(
+                &station,
+                &met.engagement,
+                &drive,
+                feed,
+                motion.line,
+                findings,
+            );
             stations.push(station);
         }
         Ok(stations)

@@ -70,7 +70,8 @@ impl RampFindings {
     /// Notes how a stated load begins on a run whose load would come over a length.
     pub fn begins(
         &mut self,
-        (path, run): (&Path, &[usize]),
+        path: &Path,
+        run: &[usize],
         begins: Begins,
         load: LoadBegins,
         needs_mm: f64,

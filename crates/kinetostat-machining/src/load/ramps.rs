@@ -92,7 +92,7 @@ impl<'a> LoadAlongPath<'a> {
                 Some(_) => LoadBegins::BelowHeight,
                 None => LoadBegins::AfterRapid,
             };
-            findings.begins((path, &run), begins, own, comes_over_mm(&places, &rate));
+            findings.begins(path, &run, begins, own, comes_over_mm(&places, &rate));
             for found in limited(&places, &rate, begins).unwrap_or_default() {
                 let place = &found.place;
                 all[place.move_index].push((place.share, found.value));
@@ -194,7 +194,7 @@ impl Limit<'_, '_> {
                 false => Begins::Anyhow,
             };
             let needs_mm = comes_over_mm(&places, &rate);
-            findings.begins((path, &run), begins, LoadBegins::AfterRapid, needs_mm);
+            findings.begins(path, &run, begins, LoadBegins::AfterRapid, needs_mm);
             let Some(found) = limited(&places, &rate, begins) else {
                 continue;
             };

@@ -63,7 +63,8 @@ impl Neighbour {
         mechanism: &Mechanism,
         pose: &Pose,
         wrench: &Wrench,
-        (orientation, corrected): (Orientation, Directions),
+        orientation: Orientation,
+        corrected: Directions,
     ) -> Result<Posture, Error> {
         let answer = if orientation.follows {
             let near = self.near(pose).map(|(posture, _)| posture);
@@ -96,8 +97,9 @@ impl Neighbour {
         pose: &Pose,
         wrench: &Wrench,
     ) -> Result<(Pose, Pose), Error> {
-        let holding = (Orientation::default(), Directions::POSITION);
-        let target = *self.target(mechanism, pose, wrench, holding)?.target();
+        let held = Orientation::default();
+        let posture = self.target(mechanism, pose, wrench, held, Directions::POSITION)?;
+        let target = *posture.target();
         let tool = self
             .last
             .as_ref()

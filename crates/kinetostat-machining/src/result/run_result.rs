@@ -90,7 +90,8 @@ impl RunResult {
         }
         sum_of_bounds(
             self.run_inputs.tolerance_mm,
-            (self.run_inputs.chord_tolerance_mm, self.summary.feed_arcs),
+            self.run_inputs.chord_tolerance_mm,
+            self.summary.feed_arcs,
             self.summary.max_rounding_error_mm,
         )
     }
@@ -110,13 +111,14 @@ impl RunResult {
 pub(crate) fn bound_mm(writing: &WriteOptions, arcs: usize, accounting: &Accounting) -> f64 {
     sum_of_bounds(
         writing.tolerance_mm,
-        (writing.chord_tolerance_mm, arcs),
+        writing.chord_tolerance_mm,
+        arcs,
         accounting.largest_rounding_mm,
     )
 }
 
 /// The tolerance of chords counts where there are arcs.
-fn sum_of_bounds(path_mm: f64, (chord_mm, arcs): (f64, usize), rounding_mm: f64) -> f64 {
+fn sum_of_bounds(path_mm: f64, chord_mm: f64, arcs: usize, rounding_mm: f64) -> f64 {
     let chord_mm = if arcs > 0 { chord_mm } else { 0.0 };
     let counts = |part: &f64| part.is_finite() && *part > 0.0;
     [path_mm, chord_mm, rounding_mm]

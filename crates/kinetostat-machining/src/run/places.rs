@@ -34,7 +34,7 @@ pub(crate) fn places<S: Iterator<Item = Site>>(
     let machines = Machines::new(task);
     let compliances = in_chunks(&chosen, |memory, some| {
         let of = |(_, site): &(usize, Site)| {
-            compliance(task, &machines, &mut memory[0], (site, how.course))
+            compliance(task, &machines, &mut memory[0], site, how.course)
         };
         some.iter().map(of).collect()
     });
@@ -51,7 +51,8 @@ fn compliance(
     task: &Task<'_>,
     machines: &Machines<'_, '_>,
     memory: &mut Neighbour,
-    (site, course): (&Site, Option<&ArmCourse>),
+    site: &Site,
+    course: Option<&ArmCourse>,
 ) -> Option<[[f64; 3]; 3]> {
     if let Some(posture) = course.and_then(|c| c.standing_at(site.move_index, site.share)) {
         memory.stand_at(posture);

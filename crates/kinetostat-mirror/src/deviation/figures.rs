@@ -37,7 +37,8 @@ pub struct DeviationFigures {
 pub(crate) fn figures(
     points: &[AlignedPoint],
     at_points: &[Smoothed],
-    (stations, at_stations): (&Stations, &[Smoothed]),
+    stations: &Stations,
+    at_stations: &[Smoothed],
     scatter_mm: Option<f64>,
 ) -> DeviationFigures {
     let mean = |pairs: &mut dyn Iterator<Item = (f64, f64)>| {

@@ -183,14 +183,14 @@ pub fn measure(
         )));
     }
     if let Some(found) = &registration {
-        is_of_this_path(found, &left_out, (measured.points().len(), settings))?;
+        is_of_this_path(found, &left_out, measured.points().len(), settings)?;
     }
     let kernel = Kernel {
         length_mm: settings.smoothing_mm,
     };
     let [at_points, at_stations] = smoothed_along(&stations, kernel, &points);
     let scatter = scatter_mm(&stations, &points, settings.smoothing_mm);
-    let figures = figures(&points, &at_points, (&stations, &at_stations), scatter);
+    let figures = figures(&points, &at_points, &stations, &at_stations, scatter);
     Ok(Measurement {
         unseen: unseen(nominal, &points, settings.smoothing_mm),
         registration,
@@ -210,7 +210,8 @@ pub fn measure(
 fn is_of_this_path(
     found: &Registration,
     left_out: &[LeftOut],
-    (count, settings): (usize, &MeasureSettings),
+    count: usize,
+    settings: &MeasureSettings,
 ) -> Result<(), MirrorError> {
     let beyond = left_out
         .iter()

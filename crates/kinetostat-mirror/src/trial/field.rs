@@ -43,8 +43,9 @@ impl<'a> MirrorField<'a> {
         state.fits(nominal, &state.program_sha256, &state.settings)?;
         let smoothing_mm = state.settings.smoothing_mm;
         let stations = Stations::of(nominal, smoothing_mm)?;
-        let fading = (smoothing_mm, scatter_at_corners_mm(state));
-        let correction_mm = joined(nominal, &stations, &state.correction_mm, fading);
+        let scatter_mm = scatter_at_corners_mm(state);
+        let own_mm = &state.correction_mm;
+        let correction_mm = joined(nominal, &stations, own_mm, smoothing_mm, scatter_mm);
         let slope = slopes(&stations, &correction_mm);
         let places = places(nominal, &stations);
         Ok(Self {

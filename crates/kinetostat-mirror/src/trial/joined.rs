@@ -36,7 +36,8 @@ pub(crate) fn joined(
     nominal: &NominalPath<'_>,
     stations: &Stations,
     correction_mm: &[Vector3<f64>],
-    (smoothing_mm, scatter_mm): (f64, f64),
+    smoothing_mm: f64,
+    scatter_mm: f64,
 ) -> Vec<Vector3<f64>> {
     let mut joined = correction_mm.to_vec();
     for [end, start] in corners(nominal, stations) {

@@ -3,10 +3,7 @@
 use kinetostat_machining::RunError;
 
 use crate::answer::{Candidate, Evaluated};
-use crate::refine::Worth;
 use crate::search::looking::{SAME, Search};
-use crate::space::Place;
-use crate::value::Value;
 
 /// Maximum number of placements that are solved at all places for the list.
 const MOST_CHECKED: usize = 40;
@@ -15,28 +12,26 @@ impl Search<'_, '_> {
     /// The best and the next best placements, solved at all places, the best first.
     pub(super) fn listed(
         &self,
-        worths: &[Worth],
+        worths: &[Evaluated],
         filling: &[Evaluated],
     ) -> Result<Vec<Candidate>, RunError> {
-        let refined = worths.iter().map(|(place, value)| (place.clone(), value));
-        let others = filling.iter().map(|e| (e.place.clone(), &e.value));
-        let mut all: Vec<(Place, &Value)> = refined.chain(others).collect();
-        all.retain(|(_, value)| value.figure().is_some());
+        let mut all: Vec<&Evaluated> = worths.iter().chain(filling).collect();
+        all.retain(|evaluated| evaluated.value.figure().is_some());
         // The sort is stable: of equal ones a refined one stays before.
-        all.sort_by(|a, b| a.1.order(b.1));
+        all.sort_by(|a, b| a.value.order(&b.value));
         let mut chosen: Vec<Candidate> = Vec::new();
         let mut checked = 0;
-        for (place, _) in all {
+        for Evaluated { place, .. } in all {
             if chosen.len() > self.effort.listed || checked == MOST_CHECKED {
                 break;
             }
-            let apart = |other: &Candidate| self.space().distance(&other.place, &place) > SAME;
+            let apart = |other: &Candidate| self.space().distance(&other.place, place) > SAME;
             if !chosen.iter().all(apart) {
                 continue;
             }
             self.still_wanted()?;
             checked += 1;
-            let (candidate, _) = self.candidate(&place);
+            let (candidate, _) = self.candidate(place);
             if candidate.figure.is_some() {
                 chosen.push(candidate);
             }

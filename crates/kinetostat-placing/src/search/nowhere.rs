@@ -3,19 +3,14 @@
 use nalgebra::Vector3;
 
 use crate::answer::{Evaluated, Nowhere};
-use crate::refine::Worth;
 use crate::search::looking::Search;
 use crate::space::Place;
 
 impl Search<'_, '_> {
     /// The placement that is nearest to being taken, and how far the part would have to be moved.
-    pub(super) fn nowhere(&self, worths: &[Worth], filling: &[Evaluated]) -> Option<Nowhere> {
-        let filled = filling.iter().map(|e| (&e.place, &e.value));
-        let all = worths
-            .iter()
-            .map(|(place, value)| (place, value))
-            .chain(filled);
-        let (place, _) = all.min_by(|a, b| a.1.order(b.1))?;
+    pub(super) fn nowhere(&self, worths: &[Evaluated], filling: &[Evaluated]) -> Option<Nowhere> {
+        let all = worths.iter().chain(filling);
+        let place = &all.min_by(|a, b| a.value.order(&b.value))?.place;
         let (nearest, _) = self.candidate(place);
         Some(Nowhere {
             move_mm: self.way_back(place),

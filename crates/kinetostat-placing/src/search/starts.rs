@@ -5,7 +5,6 @@ use rayon::prelude::*;
 use sobol_burley::sample;
 
 use crate::answer::Evaluated;
-use crate::refine::Worth;
 use crate::search::looking::{SAME, Search};
 use crate::space::Place;
 
@@ -76,17 +75,18 @@ impl Search<'_, '_> {
     }
 
     /// The best ones, each apart from those before it.
-    pub(super) fn distinct(&self, samples: &[Evaluated], count: usize) -> Vec<Worth> {
+    pub(super) fn distinct(&self, samples: &[Evaluated], count: usize) -> Vec<Evaluated> {
         let mut sorted: Vec<&Evaluated> = samples.iter().collect();
         sorted.sort_by(|a, b| a.value.order(&b.value));
-        let mut chosen: Vec<Worth> = Vec::new();
+        let mut chosen: Vec<Evaluated> = Vec::new();
         for sample in sorted {
             if chosen.len() == count {
                 break;
             }
-            let apart = |(other, _): &Worth| self.space().distance(other, &sample.place) > SAME;
+            let apart =
+                |other: &Evaluated| self.space().distance(&other.place, &sample.place) > SAME;
             if chosen.iter().all(apart) {
-                chosen.push((sample.place.clone(), sample.value.clone()));
+                chosen.push(sample.clone());
             }
         }
         chosen

@@ -48,7 +48,7 @@ impl ChatterQuestion<'_> {
         let (groups, wider) = groups(&all, &tools, self.every_mm, self.most);
         let load = LoadAlongPath::with_tools(self.task.load, self.task.path(), self.task.tools)
             .with_cut(self.task.cut);
-        let (cluster_of, judged) = self.clusters((&all, &tools), &groups, wider);
+        let (cluster_of, judged) = self.clusters(&all, &tools, &groups, wider);
         let of_near = judged.len().div_ceil(NEAR_SHARE);
         let of_speeds = judged.len().div_ceil(SPEEDS_SHARE);
         watch.stage("chatter", judged.len() + of_near + of_speeds);
@@ -102,7 +102,8 @@ impl ChatterQuestion<'_> {
         let stretches = stretches(
             &OtherSpeeds::new(self, &load, &found),
             &judged_sites,
-            (watch, &part),
+            watch,
+            &part,
         )?;
         Ok(ProgramChatter {
             sites: judged_sites,

@@ -26,7 +26,8 @@ impl ChatterQuestion<'_> {
     /// with the widest arc, in the order of the path of the first group of each.
     pub(crate) fn clusters(
         &self,
-        (all, tools): (&[CutSite], &[usize]),
+        all: &[CutSite],
+        tools: &[usize],
         groups: &[Range<usize>],
         wider: f64,
     ) -> (Vec<usize>, Vec<usize>) {

@@ -38,7 +38,8 @@ pub struct ChatterStretch {
 pub(crate) fn stretches(
     speeds: &OtherSpeeds<'_, '_, '_>,
     judged: &[JudgedSite],
-    (watch, advance): (&dyn Watch, &dyn Fn(f64)),
+    watch: &dyn Watch,
+    advance: &dyn Fn(f64),
 ) -> Result<Vec<ChatterStretch>, ProgramChatterError> {
     let mut all: Vec<(ChatterStretch, Vec<&JudgedSite>)> = Vec::new();
     let mut goes_on = false;
@@ -99,7 +100,7 @@ pub(crate) fn stretches(
                 && site.site.station.rpm == stretch.rpm
         };
         let beside: Vec<&JudgedSite> = judged.iter().filter(is_beside).collect();
-        stretch.stable_speed = speeds.stable_speed(stretch.rpm, (sites, &beside))?;
+        stretch.stable_speed = speeds.stable_speed(stretch.rpm, sites, &beside)?;
         stretch.speeds_tried = true;
         advance((done + 1) as f64 / tried as f64);
     }

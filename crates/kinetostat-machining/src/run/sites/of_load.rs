@@ -1,7 +1,7 @@
 //! Places along a path that the load requires.
 
 use kinetostat::Wrench;
-use kinetostat_program::{Path, Piece, Turn};
+use kinetostat_program::{Path, Piece, Turn, Turning};
 
 use crate::load::along_path::LoadAlongPath;
 use crate::load::law::CornerLoad;
@@ -61,12 +61,15 @@ pub(super) fn on_step(
     load: &LoadAlongPath<'_>,
     placement: &Placement,
 ) -> (Wrench, Option<Wrench>) {
-    let part = turn.part_from + place * (turn.part_to - turn.part_from);
-    let from = (turn.from_move, turn.from_share);
-    let to = (piece.move_index, turn.to_share);
-    let turns = load.turning_wrench(placement, from, to, part);
+    let turning = Turning {
+        from_move: turn.from_move,
+        from_share: turn.from_share,
+        to_share: turn.to_share,
+        part: turn.part_from + place * (turn.part_to - turn.part_from),
+    };
+    let turns = load.turning_wrench(placement, piece.move_index, &turning);
     let along = piece.commanded_to - piece.commanded_from;
-    let follows = load.wrench_towards(placement, to.0, to.1, &along);
+    let follows = load.wrench_towards(placement, piece.move_index, turn.to_share, &along);
     match load.load_of(piece.move_index).at_corners {
         CornerLoad::Turns => (turns, Some(follows)),
         CornerLoad::FollowsFeed => (follows, Some(turns)),

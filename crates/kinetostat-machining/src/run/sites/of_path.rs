@@ -57,7 +57,7 @@ impl<'a> OfPath<'a> {
     }
 
     /// The place at a share of a move, with what acts there.
-    fn site(&self, i: usize, (share, end): (f64, bool)) -> Site {
+    fn site(&self, i: usize, share: f64, end: bool) -> Site {
         let motion = &self.path.moves[i];
         let desired = motion.point(share);
         Site {
@@ -87,7 +87,7 @@ pub(crate) fn sites_of_path<'a>(
     let of_path = OfPath::new(task, load);
     task.path().own_moves().flat_map(move |i| {
         let shares = of_path.shares(i).into_iter();
-        let sites = shares.map(|place| of_path.site(i, place));
+        let sites = shares.map(|(share, end)| of_path.site(i, share, end));
         sites.collect::<Vec<_>>()
     })
 }
@@ -109,7 +109,7 @@ pub(crate) fn places_on_moves(
             (Knowledge::Whole, MoveKind::Feed) => *share,
             _ => 1.0,
         };
-        Some(of_path.site(*index, (share, share == 1.0)))
+        Some(of_path.site(*index, share, share == 1.0))
     };
     chosen.iter().filter_map(site).collect()
 }
