@@ -13,8 +13,7 @@ use crate::measured_frame::{FrameMotion, MeasuredFrame, PartPlace};
 use crate::near::natural_length;
 use crate::placement::Placement;
 use crate::postures::arm_course::ArmCourse;
-use crate::postures::neighbour::{Neighbour, in_chunks};
-use crate::postures::orientation::Orientation;
+use crate::postures::neighbour::{Neighbour, Orientation, in_chunks};
 
 /// Answers, for every point of a path, what must be added to the program so that the tool is there
 /// under the load of the program.

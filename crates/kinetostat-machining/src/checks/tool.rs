@@ -3,7 +3,7 @@
 use kinetostat::Mechanism;
 use kinetostat::number::short;
 
-use crate::checks::exceeded::Exceeded;
+use crate::checks::Exceeded;
 use crate::checks::load::numbered;
 use crate::limits::{Beyond, Limits};
 use crate::near::natural_length;

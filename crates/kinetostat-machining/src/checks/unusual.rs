@@ -5,8 +5,8 @@ use kinetostat::number::{largest, short};
 use kinetostat_program::{Move, MoveKind, WriteOptions};
 use nalgebra::Vector3;
 
+use crate::checks::ODD;
 use crate::checks::correction::{besides, odd_correction};
-use crate::checks::exceeded::ODD;
 use crate::checks::load::{left_out, loads, never_acts, odd_load};
 use crate::checks::own_weight::by_own_loads;
 use crate::checks::placement::{origin_in_metres, outside_workspace};

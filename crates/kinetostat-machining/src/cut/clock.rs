@@ -3,7 +3,7 @@
 use kinetostat_program::{Knowledge, Move, MoveKind, Path, PauseKind};
 use serde::{Deserialize, Serialize};
 
-use crate::cut::failure::CutFailure;
+use crate::cut::finding::CutFailure;
 
 /// Unit of the P of a dwell (G4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

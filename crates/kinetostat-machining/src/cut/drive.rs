@@ -3,9 +3,8 @@
 use kinetostat_cutting::Rotation;
 use kinetostat_program::{Move, Path, SpeedMode, SpindleRotation};
 
-use crate::cut::cutting_tool::CuttingTool;
-use crate::cut::failure::CutFailure;
-use crate::cut::question::CutQuestion;
+use crate::cut::finding::CutFailure;
+use crate::cut::question::{CutQuestion, CuttingTool};
 
 /// Rotation and feed of the tool on a move.
 pub(crate) struct Drive<'a> {

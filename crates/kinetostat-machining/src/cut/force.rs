@@ -2,8 +2,7 @@
 
 use kinetostat_cutting::{CutForce, Engagement, Feed, MeanTable, Milling, Result, Rotation, Wall};
 
-use crate::cut::choice::ForceChoice;
-use crate::cut::cutting_tool::CuttingTool;
+use crate::cut::question::{CuttingTool, ForceChoice};
 
 /// A table is worth its making after so many forces of one feed.
 const WORTH_A_TABLE: usize = 200;

@@ -7,12 +7,10 @@ use kinetostat_program::{Move, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::cut::drive::Drive;
-use crate::cut::engagement_source::EngagementSource;
-use crate::cut::failure::CutFailure;
-use crate::cut::finding::{CutFindingKind, Findings};
+use crate::cut::finding::{CutFailure, CutFindingKind, Findings};
 use crate::cut::force::ForceOf;
 use crate::cut::profile::ForceAlongPath;
-use crate::cut::question::CutQuestion;
+use crate::cut::question::{CutQuestion, EngagementSource};
 use crate::cut::station::{ACROSS, ContactArc, CutStation, SHORT_MM};
 use crate::cut::walk::{Met, Walk};
 use crate::watch::Watch;

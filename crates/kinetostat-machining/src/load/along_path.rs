@@ -20,12 +20,11 @@ use kinetostat::Wrench;
 use kinetostat_program::{Curve, Move, MoveKind, Path, Turning};
 use nalgebra::{Rotation3, Vector3};
 
-use crate::cut::profile::{CutAxes, ForceAlongPath};
-use crate::cut::vertices::Scale;
+use crate::cut::profile::{CutAxes, ForceAlongPath, Scale};
 use crate::load::headings::{Headings, heading_on, headings, tool_frame};
 use crate::load::law::{CuttingLoad, LoadAxes, ProgramLoad, Tool, tool_on};
 use crate::placement::Placement;
-use crate::profile::by_move::Profile;
+use crate::profile::Profile;
 
 /// Forces of the cut.
 #[derive(Clone, Debug)]

@@ -4,7 +4,7 @@ use kinetostat::{Mechanism, Pose, Wrench};
 use kinetostat_program::Path;
 use serde::{Deserialize, Serialize};
 
-use crate::cut::origin::ForceOrigin;
+use crate::cut::profile::ForceOrigin;
 
 /// Axes of a constant wrench.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -4,7 +4,7 @@ use kinetostat::number::larger;
 use kinetostat_program::Path;
 use serde::{Deserialize, Serialize};
 
-use crate::profile::limited::Begins;
+use crate::profile::Begins;
 
 /// A change of the force inside a cut that is faster than the correction may follow, where that is worst on a line.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,13 +13,12 @@ use kinetostat::Wrench;
 use kinetostat::number::larger;
 use kinetostat_program::{Curve, Move, MoveKind, Path};
 
+use crate::cut::profile::Scale;
 use crate::cut::station::SHORT_MM;
-use crate::cut::vertices::Scale;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::law::{CuttingLoad, ProgramLoad};
 use crate::load::ramp_findings::{LoadBegins, RampFindings, TooFast};
-use crate::profile::by_move::{ByMove, Profile, reduced};
-use crate::profile::limited::{Begins, Place, SinceRapid, comes_over_mm, limited};
+use crate::profile::{Begins, ByMove, Place, Profile, SinceRapid, comes_over_mm, limited, reduced};
 
 /// A load in two readings.
 #[derive(Clone, Debug)]

@@ -1,10 +1,10 @@
 //! Figures of a whole run.
 
-use crate::load::ramp_findings::LoadRamp;
-use crate::result::largest_change::LargestChange;
-use crate::result::solving::Solving;
 use kinetostat_program::ShortBlocksOfLine;
 use serde::{Deserialize, Serialize};
+
+use crate::load::ramp_findings::LoadRamp;
+use crate::result::solving::Solving;
 
 /// Figures of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -175,4 +175,21 @@ pub struct Summary {
 /// JSON knows no infinite numbers.
 fn infinite_where_null<'de, D: serde::Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
+}
+
+/// The fastest change of the written correction along feed moves, mm per mm of path: of the written positions less their places
+/// on the path, over every stretch of a hundred last digits (0.01 mm with four decimals), which rounding makes at most 0.018
+/// larger. Steps, where the tool stands at one place of the path, are no part of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct LargestChange {
+    /// Largest change, mm per mm.
+    pub value: f64,
+    /// Line of the program on which it is.
+    pub line: usize,
+    /// Largest change that is stated for the load there ([`ProgramLoad::largest_step`](crate::ProgramLoad::largest_step)), mm per mm;
+    /// none where any is allowed.
+    pub stated: Option<f64>,
+    /// Lines on which the change is larger than what is stated for them, by more than rounding makes of it.
+    pub lines_beyond: usize,
 }

@@ -7,7 +7,7 @@ use kinetostat::{Error, Pose, Wrench};
 use nalgebra::Vector3;
 
 use crate::field::cause_and_advice;
-use crate::joints::figures::JointFigures;
+use crate::joints::JointFigures;
 use crate::load::along_path::LoadAlongPath;
 use crate::measured_frame::{MeasuredFrame, PartPlace};
 use crate::placement::Placement;

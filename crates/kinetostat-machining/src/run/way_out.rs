@@ -5,7 +5,7 @@ use kinetostat_program::WriteError;
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
-use crate::joints::arm::Arm;
+use crate::joints::Arm;
 use crate::measured_frame::PartPlace;
 use crate::near::{NEAR_SINGULAR, natural_length};
 use crate::result::joints::WayOut;

@@ -9,7 +9,7 @@ use kinetostat_program::{
 };
 use nalgebra::Vector3;
 
-use crate::verify::followed::Followed;
+use crate::verify::along::Followed;
 
 /// Equal ways on a part of an arc belong to equal ways on the original within this, mm, or the part is halved.
 const EVEN_MM: f64 = 2e-5;

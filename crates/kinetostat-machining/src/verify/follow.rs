@@ -8,8 +8,7 @@ use kinetostat_program::{Corrected, Curve, Foot, Knowledge, Move, MoveKind, Nomi
 use nalgebra::Vector3;
 
 use crate::task::{NoMotion, RunError};
-use crate::verify::along::{Along, beside_mm};
-use crate::verify::followed::Followed;
+use crate::verify::along::{Along, Followed, beside_mm};
 use crate::verify::matched::Matched;
 use crate::verify::on_guide::{Search, are_same};
 use crate::verify::places::{End, ends, feet};

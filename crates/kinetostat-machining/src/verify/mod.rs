@@ -15,7 +15,6 @@ mod along;
 mod conditions;
 mod exact;
 mod follow;
-mod followed;
 mod matched;
 mod on_guide;
 mod places;
@@ -30,20 +29,19 @@ use kinetostat_program::{
 use nalgebra::UnitQuaternion;
 
 use crate::load::law::CornerLoad;
-use crate::run::checked::Checked;
 use crate::run::conclude::{Run, conclude};
-use crate::run::corner_steps::by_the_other_reading;
-use crate::run::force_band::force_band;
+use crate::run::other_load::{by_the_other_reading, force_band};
 use crate::run::places::places;
 use crate::run::points::solve;
 use crate::run::preparation::Preparation;
 use crate::run::sites::of_written::sites_of_written;
+use crate::run::summary::Checked;
 use crate::run::way_out::with_way_out;
 use crate::task::{RunError, Task};
+use crate::verify::along::Followed;
 use crate::verify::conditions::{conditions, cuts};
 use crate::verify::exact::exact;
 use crate::verify::follow::follow;
-use crate::verify::followed::Followed;
 use crate::warning::WarningCode;
 use crate::watch::Watch;
 

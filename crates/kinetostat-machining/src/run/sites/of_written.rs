@@ -8,10 +8,10 @@ use kinetostat_program::{
 use crate::load::along_path::LoadAlongPath;
 use crate::placement::Placement;
 use crate::result::point::PointKind;
-use crate::run::sites::of_load::{jumps, on_step, places_of_load};
-use crate::run::sites::programmed::{ARC_MM, Programmed, turns};
+use crate::run::sites::of_path::{jumps, on_step, places_of_load};
 use crate::run::sites::site::{
-    Site, commanded_angles, commanded_turn, great_circle, kind, rotary, spacing_mm, starts, stays,
+    ARC_MM, Programmed, Site, commanded_angles, commanded_turn, great_circle, kind, rotary,
+    spacing_mm, starts, stays, turns,
 };
 use crate::task::Task;
 
