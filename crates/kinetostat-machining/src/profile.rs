@@ -105,14 +105,6 @@ pub(crate) fn reduced<const N: usize>(
 }
 
 /// A value at a place of the path.
-///
-/// A value that counts (the tool cuts there) is kept wherever the values around it can be reached at the rate that is allowed:
-/// the change goes into the air before and after, where it does not matter what the value is. If two values that count are too
-/// close to each other, the profile goes midway between the highest and the lowest that they ask for.
-///
-/// Bounds from below and above are cones of that rate from every place that counts, found in one pass forwards and one
-/// backwards. Between two places the bounds are straight lines, so that the places where the profile bends are their
-/// intersections.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place<const N: usize> {
     pub move_index: usize,
@@ -155,6 +147,14 @@ pub(crate) struct Limited<const N: usize> {
 }
 
 /// Places with values that change by at most `rate` per mm, component by component; `None` where the places themselves do.
+///
+/// A value that counts (the tool cuts there) is kept wherever the values around it can be reached at the rate that is allowed:
+/// the change goes into the air before and after, where it does not matter what the value is. If two values that count are too
+/// close to each other, the profile goes midway between the highest and the lowest that they ask for.
+///
+/// Bounds from below and above are cones of that rate from every place that counts, found in one pass forwards and one
+/// backwards. Between two places the bounds are straight lines, so that the places where the profile bends are their
+/// intersections.
 pub(crate) fn limited<const N: usize>(
     places: &[Place<N>],
     rate: &[f64; N],

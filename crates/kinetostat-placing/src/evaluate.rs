@@ -6,9 +6,8 @@ use kinetostat_machining::{MovableProgram, Placement, Reach, RunError};
 use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::objective::Objective;
 use crate::space::{Place, Space};
-use crate::value::{Refusal, Value, Why};
+use crate::value::{Objective, Refusal, Value, Why};
 
 /// Objective and constraints of a search.
 #[derive(Clone, Debug, Default)]

@@ -11,7 +11,7 @@ use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
 use crate::cut::coefficients::Coefficients;
-use crate::cut::directional;
+use crate::cut::piece::directional_integral;
 use crate::cut::piece::{Active, End, Piece};
 use crate::error::{ChatterError, ChatterErrorKind, Result, above};
 use crate::number::wrapped;
@@ -113,8 +113,8 @@ impl MillingCut {
 
     /// Mean of the directional matrix over the turn, N/m^2: `(N/2 pi) int D dphi`; the helix does not change it.
     pub(crate) fn mean(&self) -> Matrix3<f64> {
-        let upper = directional::integral(&self.coefficients, self.arc.exit());
-        (upper - directional::integral(&self.coefficients, self.arc.entry())) * self.teeth as f64
+        let upper = directional_integral(&self.coefficients, self.arc.exit());
+        (upper - directional_integral(&self.coefficients, self.arc.entry())) * self.teeth as f64
             / TAU
     }
 

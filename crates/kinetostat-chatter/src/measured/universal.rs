@@ -6,8 +6,9 @@
 use nalgebra::Complex;
 
 use crate::error::{ChatterError, ChatterErrorKind, Result};
-use crate::measured::quantity::{Motion, force_unit, frequency_unit, motion_unit, response_unit};
-use crate::measured::response::MeasuredResponse;
+use crate::measured::response::{
+    MeasuredResponse, Motion, force_unit, frequency_unit, motion_unit, response_unit,
+};
 
 /// Contents of a universal file.
 #[derive(Clone, Debug, Default, PartialEq)]

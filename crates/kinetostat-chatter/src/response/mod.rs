@@ -7,9 +7,7 @@ mod first_order;
 mod mode;
 mod tool;
 
-pub use mode::Mode;
-pub use tool::FeedFrame;
-pub use tool::ToolResponse;
-
 pub(crate) use coupling::Coupling;
 pub(crate) use first_order::first_order;
+pub use mode::Mode;
+pub use tool::{FeedFrame, ToolResponse};

@@ -2,12 +2,11 @@
 
 use crate::cut::{checked_depth, checked_speed};
 use crate::error::{ChatterError, ChatterErrorKind, Result};
-use crate::stability::along::Along;
-use crate::stability::krylov;
-use crate::stability::limits::SpeedStability;
+use crate::stability::eigenvalues::ROUGH;
+use crate::stability::multiplier::SpeedStability;
+use crate::stability::period::resolved_hz;
 use crate::stability::regeneration::{Regeneration, Selected};
-use crate::stability::resolution::resolved_hz;
-use crate::stability::scan::Search;
+use crate::stability::scan::{Along, Search};
 use crate::stability::swinging::Known;
 
 /// Share of the usual points of collocation at one look, and the logarithm of a multiplier from which it is unstable for certain.
@@ -73,7 +72,7 @@ impl Regeneration {
         checked_depth(depth)?;
         let of = |regeneration: &Self| -> Result<bool> {
             let along = Along::new(regeneration, speed_rpm, LOOK)?;
-            Ok(along.logarithm(depth, krylov::ROUGH)? > CLEARLY)
+            Ok(along.logarithm(depth, ROUGH)? > CLEARLY)
         };
         let Some(Selected { selection, usual }) = self.selected() else {
             return of(self);

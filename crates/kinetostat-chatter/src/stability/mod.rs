@@ -5,26 +5,19 @@
 //! its largest multiplier, with `followed` and `eigenvalues`; `scan` looks along the depth, which `along` goes, for `limits`; `swinging` says which modes count,
 //! `counted` sees to it that they do. Source: `dynamics.md` section 10 [D 8].
 
-mod along;
-mod collocation;
 mod counted;
 mod eigenvalues;
-mod krylov;
 mod legendre;
-mod limits;
 mod multiplier;
 mod operator;
 mod period;
 mod regeneration;
-mod resolution;
 mod scan;
 mod states;
 mod swinging;
 
-pub use limits::{Crossing, SpeedStability};
-pub use multiplier::{Instability, Multiplier};
+pub(crate) use eigenvalues::{by_qr, eigenvalues};
+pub(crate) use legendre::Chebyshev;
+pub use multiplier::{Crossing, Instability, Multiplier, SpeedStability};
 pub use regeneration::Regeneration;
 pub use swinging::{LeftOut, Swinging};
-
-pub(crate) use collocation::Chebyshev;
-pub(crate) use eigenvalues::{by_qr, eigenvalues};

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use crate::error::{ChatterError, ChatterErrorKind, Result};
 use crate::number::Complex64;
-use crate::stability::krylov;
+use crate::stability::eigenvalues::largest;
 use crate::stability::period::Period;
 
 /// The monodromy operator of a period at a depth.
@@ -85,7 +85,7 @@ impl<'a> Operator<'a> {
     ) -> Result<(Complex64, DVector<Complex64>)> {
         // With many modes, most decay.
         let states = 2 * self.period.states.len();
-        krylov::largest(self.size(), states, accuracy, last, |x| self.apply(x))
+        largest(self.size(), states, accuracy, last, |x| self.apply(x))
     }
 
     /// The operator as a matrix.

@@ -5,8 +5,7 @@ use std::f64::consts::TAU;
 use crate::engagement::{Contact, Edge};
 use crate::law::ForceLaw;
 use crate::milling::chip::Tooth;
-use crate::milling::cut::Milling;
-use crate::milling::cut_force::CutForce;
+use crate::milling::cut::{CutForce, Milling};
 use crate::number::integrate;
 use crate::tool::{Meridian, Piece};
 

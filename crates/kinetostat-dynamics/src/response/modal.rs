@@ -8,8 +8,7 @@ use crate::error::{Error, Result};
 use crate::linear::LinearDynamics;
 use crate::linear::places::Point;
 use crate::modes::{ModeKind, Modes};
-use crate::response::coupled::CoupledDamping;
-use crate::response::translational::TranslationalModes;
+use crate::response::coupled::{CoupledDamping, TranslationalModes};
 use crate::response::{Quantity, Receptance};
 
 /// One mode as two points see it.

@@ -1,4 +1,5 @@
-//! Plausibility of a correction for cutting forces: the part due to the machine's own weight has a limit of its own.
+//! Plausibility of a correction for cutting forces: the part due to the machine's own weight has a limit of its own, and a
+//! displacement may be too large to be a deflection.
 
 use kinetostat::number::{Rounding, largest_length, length_setting, significant};
 use nalgebra::Vector3;

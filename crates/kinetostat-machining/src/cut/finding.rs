@@ -1,4 +1,4 @@
-//! Warnings about cuts.
+//! Warnings about cuts, and errors of their computation.
 
 use std::collections::BTreeMap;
 

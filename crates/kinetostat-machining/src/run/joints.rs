@@ -1,4 +1,5 @@
-//! Limits, ratings and configuration along a program, and where an arm cannot follow it in one posture.
+//! Limits, ratings and configuration along a program, where an arm cannot follow it in one posture, and jumps of a tool whose
+//! orientation follows.
 
 use kinetostat::batch::AlongPath;
 use kinetostat::number::{larger, smaller};

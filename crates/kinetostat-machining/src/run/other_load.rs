@@ -1,4 +1,5 @@
-//! Places of a run under another load than theirs: where the tool is then.
+//! Errors of a run under another load than its own: under the other reading of sharp corners, and with the spread of the force's
+//! coefficients, for which the machine is solved with the force so much larger and smaller.
 
 use kinetostat::number::larger;
 use kinetostat::{Pose, Wrench};

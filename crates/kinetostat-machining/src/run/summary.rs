@@ -1,4 +1,4 @@
-//! Figures of a run from its points and from the written program.
+//! Figures of a run from its points, from the written program and from the check of that program.
 
 use kinetostat::number::{largest_length, smaller};
 use kinetostat_program::{Corrected, Curve, MoveKind, Path};

@@ -15,12 +15,9 @@ use crate::error::MirrorError;
 use crate::number::larger;
 use crate::points::{MeasuredPoint, MeasuredPoints};
 use crate::registration::candidates::{Candidate, ToldBy, chosen};
-use crate::registration::closest::{Closest, RegistrationOptions};
-use crate::registration::everywhere::everywhere;
-use crate::registration::extent::of_the_same_size;
-use crate::registration::horn::{Pair, closest_motion};
-use crate::registration::motion::{FreeMotion, Motion};
-use crate::registration::starts::starts;
+use crate::registration::closest::{Closest, RegistrationOptions, of_the_same_size};
+use crate::registration::motion::{FreeMotion, Motion, Pair, closest_motion};
+use crate::registration::starts::{everywhere, starts};
 
 /// Points by which motions are judged; all of them take part in the end.
 const JUDGED: usize = 1000;

@@ -3,8 +3,7 @@
 use kinetostat::{Mechanism, MotionKind};
 use nalgebra::{DMatrix, DVector};
 
-use crate::elements::quantity::by_kind;
-use crate::elements::quantity::{DEG, MM, ReadResult, choice, choices, forbid, need};
+use crate::elements::quantity::{DEG, MM, ReadResult, by_kind, choice, choices, forbid, need};
 use crate::findings::{Findings, name};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::{

@@ -1,10 +1,9 @@
 //! Elements of a chain in SI, before a limb gives them their deviations.
 
-use crate::elements::body::body;
 use crate::elements::elastic::Elastic;
 use crate::elements::joint::{actuator, kind, lead, passive, spring};
 use crate::elements::link::{link, parallelogram};
-use crate::elements::part::Part;
+use crate::elements::part::{Part, body};
 use crate::elements::placement::{direction, pose};
 use crate::elements::quantity::{DEG, MM, choices, vector};
 use crate::problem::{Finding, KeyPath};

@@ -11,4 +11,3 @@ pub(crate) mod link_matrix;
 pub(crate) mod masses;
 pub(crate) mod numbers;
 pub(crate) mod springs;
-pub(crate) mod tree;

@@ -6,10 +6,7 @@
 //! and the best one is that of the whole program.
 
 mod findings;
-mod listed;
 mod looking;
-mod nowhere;
-mod starts;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -18,10 +15,9 @@ use rayon::prelude::*;
 
 use crate::answer::{Candidate, Evaluated, Placed};
 use crate::evaluate::{Evaluator, Question};
-use crate::maps::maps;
 use crate::refine::refined;
 use crate::search::looking::Search;
-use crate::sensitivity::sensitivity;
+use crate::sensitivity::{maps, sensitivity};
 use crate::space::{Place, Space};
 
 pub use looking::Effort;

@@ -12,7 +12,7 @@ use crate::batch::plan::steps::Plan;
 use crate::batch::run::{Answers, Job};
 use crate::batch::status::{Engine, Status};
 use crate::batch::table::{BLOCK, Table};
-use crate::chain::found_by::FoundBy;
+use crate::chain::residual::FoundBy;
 use crate::chain::system::System;
 use crate::compensation::target::target_under_load;
 use crate::error::{Error, Result};

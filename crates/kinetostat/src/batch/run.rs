@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use pulp::{Simd, WithSimd};
 
-use crate::batch::buffers::Buffers;
 use crate::batch::limb::loaded::Precision;
 use crate::batch::limb::reach::{Joints, MOST_STEPS};
 use crate::batch::limb::shape::Shape;
@@ -17,7 +16,7 @@ use crate::batch::numbers::symmetric::Symmetric;
 use crate::batch::numbers::vectors::{carried, constant, select};
 use crate::batch::plan::steps::Plan;
 use crate::batch::status::Status;
-use crate::batch::table::BLOCK;
+use crate::batch::table::{BLOCK, Buffers};
 use crate::spatial::{Directions, Pose, Wrench};
 
 /// Task of one thread: as many postures as `status` has places.

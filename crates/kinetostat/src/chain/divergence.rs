@@ -25,8 +25,8 @@
 
 use nalgebra::{DMatrix, linalg::Schur};
 
-use crate::linalg::krylov::largest_eigenvalues;
 use crate::linalg::saddle::inertia;
+use crate::linalg::sparse::largest_eigenvalues;
 use crate::number::larger;
 
 /// Motions of a shape that are in its tangent stiffness.

@@ -15,15 +15,15 @@
 
 use nalgebra::DMatrix;
 
-use crate::chain::found_by::FoundBy;
-use crate::chain::residual::{Residual, ResidualNorms};
+use crate::chain::residual::{FoundBy, Residual, ResidualNorms};
 use crate::chain::scaling::{LEAST_LOAD, natural};
-pub(crate) use crate::chain::scaling::{disparate, scales_of};
 use crate::chain::stability::{ShapeStability, shape_stability, swept_stability};
 use crate::chain::stiffness::{ChainStiffness, chain_stiffness, swept_stiffness};
-pub(crate) use crate::chain::system::{System, rounding};
 use crate::model::chain::Chain;
 use crate::spatial::{Pose, Wrench};
+
+pub(crate) use crate::chain::scaling::{disparate, scales_of};
+pub(crate) use crate::chain::system::{System, rounding};
 
 /// A chain in equilibrium.
 #[derive(Clone, Debug)]

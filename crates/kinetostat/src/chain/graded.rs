@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector, Vector6};
 use crate::chain::directions::{Direction, DirectionKind, direction, rigid_directions};
 use crate::chain::material::{MaterialUnits, material_springs};
 use crate::chain::scaling::disparate;
-use crate::chain::sweep::end_spring::STEP_SPRINGS;
+use crate::chain::sweep::factor::STEP_SPRINGS;
 use crate::chain::sweep::solve::{Bordered, EndRows};
 use crate::chain::sweep::stages::{Form, Sweep};
 use crate::chain::system::{Hessian, System};
@@ -19,8 +19,7 @@ use crate::linalg::singular_values::SingularValues;
 use crate::model::chain::{Chain, Scale};
 use crate::model::mechanism::Mechanism;
 use crate::model::springs::block::scaled;
-use crate::number::short;
-use crate::number::{larger, smaller};
+use crate::number::{larger, short, smaller};
 
 /// Roots of compliances that differ by more than this (stiffnesses by its square) are taken apart.
 const UNEVEN: f64 = 1e3;

@@ -3,12 +3,11 @@
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 
 use crate::chain::equilibrium::{Equilibrium, Solution};
-use crate::chain::found_by::FoundBy;
 use crate::chain::potential::is_conservative;
 use crate::chain::problem::{ChainProblem, Prescribed};
-use crate::chain::residual::ResidualNorms;
+use crate::chain::residual::{FoundBy, ResidualNorms};
 use crate::chain::scaling::{natural, scales_of, step_limit};
-use crate::chain::sweep::end_spring::STEP_SPRINGS;
+use crate::chain::sweep::factor::STEP_SPRINGS;
 use crate::chain::sweep::solve::{Bordered, EndRows};
 use crate::chain::sweep::stages::{ChainMethod, Sweep, turned_rows};
 use crate::chain::system::{Hessian, System, rounding};

@@ -5,9 +5,8 @@ use nalgebra::Vector3;
 use crate::chain::problem::{ChainProblem, Prescribed};
 use crate::error::Result;
 use crate::model::kinematics::Kinematics;
-use crate::model::loads::check::fits;
+use crate::model::loads::check::{common_axis, dead_moment_is_conservative, fits};
 use crate::model::loads::load::Load;
-use crate::model::loads::potential::{common_axis, dead_moment_is_conservative};
 use crate::spatial::Wrench;
 
 /// The wrench that the end condition prescribes, zero in the directions of prescribed pose.

@@ -11,21 +11,20 @@
 //! the symmetric part, below 1 of which nothing goes away, whatever the masses are, and beyond it
 //! [`crate::chain::divergence`] decides.
 
-use nalgebra::{DMatrix, DVector};
-#[cfg(feature = "serde")]
-use serde::{Deserialize, Serialize};
-
+use crate::chain::directions::{names_in, passive_null_space, scaled_jacobian};
 use crate::chain::divergence::{TangentMotions, diverging_motions};
 use crate::chain::material::{MaterialUnits, material_springs, without_geometric};
-use crate::chain::passive::{names_in, passive_null_space, scaled_jacobian};
 use crate::chain::sweep::solve::EndMotions;
 use crate::chain::sweep::stages::Sweep;
 use crate::chain::system::System;
 use crate::linalg::complement::{complement, complement_of_few};
-use crate::linalg::krylov::largest_eigenvalues;
 use crate::linalg::saddle::{Inertia, RANK_TOLERANCE, column_space, inertia};
+use crate::linalg::sparse::largest_eigenvalues;
 use crate::model::chain::Chain;
 use crate::number::largest_size;
+use nalgebra::{DMatrix, DVector};
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
 
 /// Stability of a chain's shape while its end is held.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,10 +2,9 @@
 
 use crate::chain::directions::DirectionKind;
 use crate::chain::equilibrium::{Equilibrium, Solution};
-use crate::chain::found_by::FoundBy;
 use crate::chain::newton::{Attempt, EndPath};
 use crate::chain::problem::{ChainProblem, Prescribed, check_problem};
-use crate::chain::residual::ResidualNorms;
+use crate::chain::residual::{FoundBy, ResidualNorms};
 use crate::chain::scaling::{FAR, LEAST_LOAD, SHORT_STEP, aside, gone, natural, nudged};
 use crate::chain::sweep::stages::ChainMethod;
 use crate::continuation::chain::stability::stability_as_prescribed;

@@ -18,8 +18,7 @@ use crate::chain::stability::ShapeStability;
 use crate::continuation::chain::system::ChainSystem;
 use crate::continuation::curve::{CurvePoint, Curves, SpecialKind};
 use crate::continuation::follow::follow_until;
-use crate::continuation::parameter::{LoadPattern, Parameter};
-use crate::continuation::settings::CurveSettings;
+use crate::continuation::settings::{CurveSettings, LoadPattern, Parameter};
 use crate::continuation::tracing::tracer::Tracer;
 use crate::equilibrium::chain::solve_chain;
 use crate::equilibrium::critical_tangent::{

@@ -2,18 +2,16 @@
 //! stays [R 6.21-6.30].
 
 use nalgebra::Matrix6;
-
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::chain::compliance::{CartesianCompliance, stiffness_against_force};
 use crate::chain::directions::{Direction, DirectionKind, Share};
 use crate::chain::divergence::TangentMotions;
-use crate::chain::found_by::FoundBy;
 use crate::chain::link_load::{LinkLoad, link_loads};
 use crate::chain::potential::load_energy;
 use crate::chain::problem::{ChainProblem, EndCondition};
-use crate::chain::residual::Residual;
+use crate::chain::residual::{FoundBy, Residual};
 use crate::chain::stability::ShapeStability;
 use crate::chain::stiffness::ChainStiffness;
 use crate::error::{Error, Result};

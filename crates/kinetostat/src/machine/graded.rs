@@ -14,7 +14,7 @@ use crate::chain::stiffness::{ChainStiffness, Direction};
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{RANK_TOLERANCE, Saddle, independent_columns};
 use crate::linalg::sparse::Sparse;
-use crate::machine::ends::Ends;
+use crate::machine::network::Ends;
 use crate::machine::platform_system::motion_units;
 use crate::model::chain::Scale;
 

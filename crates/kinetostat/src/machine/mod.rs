@@ -13,7 +13,6 @@
 pub(crate) mod assembly;
 pub(crate) mod constraints;
 pub(crate) mod directions;
-pub(crate) mod ends;
 pub(crate) mod equilibrium;
 pub(crate) mod following;
 pub(crate) mod forward;

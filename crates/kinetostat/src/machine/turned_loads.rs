@@ -9,8 +9,8 @@ use nalgebra::{DMatrix, Matrix3, Matrix6};
 
 use crate::chain::stiffness::ChainStiffness;
 use crate::linalg::sparse::Sparse;
-use crate::machine::ends::{Ends, ends};
 use crate::machine::graded::GradedPlatforms;
+use crate::machine::network::{Ends, ends};
 use crate::machine::platforms::solver::PlatformSolver;
 use crate::model::loads::load::Load;
 use crate::spatial::hat;

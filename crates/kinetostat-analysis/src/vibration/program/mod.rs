@@ -7,12 +7,10 @@
 //! program is exact for one arc at all heights.
 
 mod along;
-mod cluster;
 mod forced;
 mod judge;
 mod judged;
 mod question;
-mod result;
 mod site;
 mod speeds;
 mod stretches;

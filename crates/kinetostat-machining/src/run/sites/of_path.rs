@@ -1,4 +1,4 @@
-//! Places at which a program is evaluated as it is given.
+//! Places at which a program is evaluated as it is given, and those that the load requires.
 
 use kinetostat::Wrench;
 use kinetostat_program::{Knowledge, MoveKind, Path, Piece, Turn, Turning};

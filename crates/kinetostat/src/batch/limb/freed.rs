@@ -6,7 +6,7 @@
 
 use pulp::Simd;
 
-use crate::batch::numbers::apart::apart;
+use crate::batch::numbers::instruction_set::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::reflection::{reflect, reflect_apart, reflection};
 use crate::batch::numbers::wrenches::Mat6;

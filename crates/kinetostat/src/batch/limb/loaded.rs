@@ -10,8 +10,8 @@
 use pulp::Simd;
 
 use crate::batch::limb::law;
-use crate::batch::limb::motion_axis::MotionAxis;
 use crate::batch::limb::reach::Joints;
+use crate::batch::limb::unloaded::MotionAxis;
 use crate::batch::numbers::lanes::{Lanes, MOST_SQUARE};
 use crate::batch::numbers::symmetric::Symmetric;
 use crate::batch::numbers::vectors::{Mat3, Vec3, identity, select};

@@ -5,7 +5,7 @@
 use pulp::Simd;
 
 use crate::batch::limb::unloaded::ForwardPass;
-use crate::batch::numbers::apart::apart;
+use crate::batch::numbers::instruction_set::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::vectors::{
     Mat3, Vec3, carried, column, constant, cross, dot, matrix, minus, select, turn_between,

@@ -3,9 +3,9 @@
 
 use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
-use crate::batch::plan::segments::{begins_at, halves_at, own_weight};
 use crate::batch::plan::steps::{
     Amount, Drive, Joint, Law, Plan, Polar, Rows, Screw, Search, Sphere, Spring, Step, Support,
+    begins_at, halves_at, own_weight,
 };
 use crate::batch::status::NoKernel;
 use crate::model::chain::{Chain, Element, Motion, Role};

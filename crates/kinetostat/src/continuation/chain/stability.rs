@@ -9,7 +9,7 @@ use crate::chain::stability::{ShapeStability, stability_within, swept_stability_
 use crate::chain::sweep::solve::EndMotions;
 use crate::continuation::chain::system::ChainSystem;
 use crate::continuation::linear::curve_matrix::CurveMatrix;
-use crate::continuation::parameter::Parameter;
+use crate::continuation::settings::Parameter;
 use crate::continuation::tracing::system::Corrected;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::column_space;

@@ -8,7 +8,7 @@ use crate::chain::problem::{ChainProblem, Prescribed, check_numbers, check_probl
 use crate::chain::scaling::{natural, nudged};
 use crate::chain::sweep::stages::ChainMethod;
 use crate::continuation::chain::system::ChainSystem;
-use crate::continuation::parameter::Parameter;
+use crate::continuation::settings::Parameter;
 use crate::error::{Error, Result};
 use crate::linalg::saddle::{RANK_TOLERANCE, column_space};
 use crate::linalg::singular_values::SingularValues;

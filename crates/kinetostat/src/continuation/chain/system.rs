@@ -19,7 +19,7 @@ use nalgebra::{DMatrix, DVector, Vector3, Vector6};
 use crate::chain::equilibrium::{System, disparate};
 use crate::chain::problem::ChainProblem;
 use crate::continuation::linear::family::Family;
-use crate::continuation::parameter::Parameter;
+use crate::continuation::settings::Parameter;
 use crate::settings::Settings;
 use crate::spatial::{Pose, Wrench};
 

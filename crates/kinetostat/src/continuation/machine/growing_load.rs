@@ -1,14 +1,12 @@
 //! Equilibrium of a machine under a load: by Newton's iteration, along a motion that needs no force without load, or
 //! with a load that grows [R 5.5.3].
 
-use crate::chain::found_by::FoundBy;
 use crate::chain::problem::EndCondition;
-use crate::chain::residual::Residual;
+use crate::chain::residual::{FoundBy, Residual};
 use crate::chain::scaling::{FAR, SHORT_STEP, gone};
 use crate::continuation::machine::free_motion::{Converged, NoRest};
 use crate::continuation::machine::tool_conditions::ToolConditions;
-use crate::continuation::parameter::{LoadPattern, Parameter};
-use crate::continuation::settings::CurveSettings;
+use crate::continuation::settings::{CurveSettings, LoadPattern, Parameter};
 use crate::error::{Error, LoadLimit, Result};
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
 use crate::machine::platforms::parts::Unknowns;

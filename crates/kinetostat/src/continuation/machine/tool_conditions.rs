@@ -5,8 +5,7 @@
 use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::chain::problem::{EndCondition, Prescribed};
-use crate::continuation::parameter::{LoadPattern, Parameter};
-use crate::continuation::settings::CurveSettings;
+use crate::continuation::settings::{CurveSettings, LoadPattern, Parameter};
 use crate::error::{Error, Result};
 use crate::linalg::complement::complement;
 use crate::machine::platforms::parts::Guide;

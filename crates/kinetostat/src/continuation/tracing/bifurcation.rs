@@ -6,10 +6,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::continuation::curve::{Special, SpecialKind};
-use crate::continuation::curve_equilibrium::CurveStability;
-use crate::continuation::linear::null_directions::NullDirections;
-use crate::continuation::linear::tangent::Tangent;
+use crate::continuation::curve::{CurveStability, Special, SpecialKind};
+use crate::continuation::linear::tangent::{NullDirections, Tangent};
 use crate::continuation::tracing::describe::describe;
 use crate::continuation::tracing::segment::{Sample, Segment, largest_one};
 use crate::continuation::tracing::singular_point::{refine, tangents};

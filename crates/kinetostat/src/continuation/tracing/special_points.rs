@@ -11,8 +11,7 @@
 
 use nalgebra::DVector;
 
-use crate::continuation::curve::{Special, SpecialKind};
-use crate::continuation::curve_equilibrium::CurveStability;
+use crate::continuation::curve::{CurveStability, Special, SpecialKind};
 use crate::continuation::linear::tangent::Tangent;
 use crate::continuation::tracing::bifurcation::{bifurcation, stability_change};
 use crate::continuation::tracing::describe::describe;

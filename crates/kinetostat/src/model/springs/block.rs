@@ -4,14 +4,13 @@
 //! constant matrix is the simplest law. What a block stores is the virtual joint's energy: the
 //! torque that the chain must apply to it is the gradient.
 
-use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
-#[cfg(feature = "serde")]
-use serde::{Deserialize, Serialize};
-
+use crate::model::springs::bilinear::SingleLaw;
 use crate::model::springs::curved::CurvedLaw;
 pub use crate::model::springs::law::SpringLaw;
 use crate::model::springs::law::{if_curved, if_single};
-use crate::model::springs::single::SingleLaw;
+use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
 
 /// A named group of spring coordinates with one law.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,12 +7,11 @@ use nalgebra::DMatrix;
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-use crate::model::springs::bilinear::BilinearLaw;
+use crate::model::springs::bilinear::{BilinearLaw, SingleLaw};
 use crate::model::springs::bowing::BowingLaw;
 use crate::model::springs::curved::CurvedLaw;
 use crate::model::springs::logarithm::LogarithmLaw;
 use crate::model::springs::parallelogram::ParallelogramLaw;
-use crate::model::springs::single::SingleLaw;
 
 /// Law of a spring block.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +43,7 @@ macro_rules! if_curved {
 }
 pub(crate) use if_curved;
 
-/// Selects a law of one coordinate that is not linear ([`super::single::SingleLaw`]).
+/// Selects a law of one coordinate that is not linear ([`super::bilinear::SingleLaw`]).
 macro_rules! if_single {
     ($law:expr, $own:ident => $do:expr, else $other:expr) => {
         match $law {

@@ -18,6 +18,3 @@ pub(crate) mod curved;
 pub(crate) mod law;
 pub(crate) mod logarithm;
 pub(crate) mod parallelogram;
-pub(crate) mod response;
-pub(crate) mod rotation;
-pub(crate) mod single;
