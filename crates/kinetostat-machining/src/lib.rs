@@ -33,15 +33,14 @@ mod weight_correction;
 pub use arm_joints::ArmJoints;
 pub use checks::correction::{folds, folds_at, is_large, odd_correction};
 pub use checks::load::{large_load, unusual_load};
-pub use checks::placement::origin_in_metres;
+pub use checks::placement::{beyond_tool_length, odd_tool_length, origin_in_metres};
 pub use checks::refused::{fastest_feed, of_accounting};
-pub use checks::tool::{beyond_tool_length, odd_tool_length};
 pub use checks::unusual::{odd_tolerances, unusual_question};
 pub use cut::clock::DwellUnit;
 pub use cut::finding::{CutFailure, CutFinding, CutFindingKind};
 pub use cut::limits::deeper_than_edges;
 pub use cut::measured::MeasuredForces;
-pub use cut::measured_report::{ActsOn, MeasuredAxes, MeasuredReport};
+pub use cut::measured_stations::{ActsOn, MeasuredAxes, MeasuredReport};
 pub use cut::profile::{ForceAlongPath, ForceOrigin};
 pub use cut::question::{CutQuestion, CuttingTool, EngagementSource, ForceChoice};
 pub use cut::station::{ContactArc, CutStation};
@@ -87,8 +86,7 @@ pub use result::run_result::{
     ActuatorColumn, FileRead, NearSingularPlace, RESULT_SCHEMA, RunInputs, RunResult, ToolAtCorners,
 };
 pub use result::selection::{farthest_off, thinned};
-pub use result::solving::{FoundCount, Solving};
-pub use result::summary::{LargestChange, Summary};
+pub use result::summary::{FoundCount, LargestChange, Solving, Summary};
 pub use result::tolerance::{
     MissedTolerance, ToleranceResult, keeps_as_it_is, of_table, unchanged_text,
 };

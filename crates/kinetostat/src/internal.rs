@@ -15,16 +15,14 @@ use crate::continuation::linear::curve_matrix::CurveMatrix;
 use crate::continuation::settings::Parameter;
 use crate::error::Result;
 use crate::model::mechanism::Mechanism;
-use crate::model::springs::block::SpringBlock;
-use crate::model::springs::law::SpringLaw;
+use crate::model::springs::block::{SpringBlock, SpringLaw};
 use crate::settings::Settings;
 use crate::spatial::Wrench;
 
 pub use crate::batch::numbers::instruction_set::InstructionSet;
 pub use crate::chain::directions::scaled_jacobian;
-pub use crate::chain::divergence::{TangentMotions, diverging_motions};
 pub use crate::chain::scaling::scales_of;
-pub use crate::chain::stability::stability_within;
+pub use crate::chain::stability::{TangentMotions, diverging_motions, stability_within};
 pub use crate::chain::stiffness::{chain_stiffness, swept_stiffness};
 pub use crate::chain::sweep::factor::END_SPRINGS;
 pub use crate::chain::sweep::solve::{Bordered, EndMotions, EndRows, shape};

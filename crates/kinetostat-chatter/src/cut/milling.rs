@@ -11,8 +11,7 @@ use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
 use crate::cut::coefficients::Coefficients;
-use crate::cut::piece::directional_integral;
-use crate::cut::piece::{Active, End, Piece};
+use crate::cut::piece::{Active, End, Piece, directional_integral};
 use crate::error::{ChatterError, ChatterErrorKind, Result, above};
 use crate::number::wrapped;
 

@@ -5,8 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::cut::milling::MillingCut;
-use crate::cut::piece::{Active, Piece};
-use crate::cut::piece::{force_direction, normal};
+use crate::cut::piece::{Active, Piece, force_direction, normal};
 use crate::error::{ChatterError, ChatterErrorKind, Result, above};
 use crate::number::larger;
 

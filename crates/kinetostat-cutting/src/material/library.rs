@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use crate::error::{CutError, CutErrorKind, Result};
-use crate::material::entry::Material;
+use crate::material::corrected::Material;
 use crate::material::text;
 use crate::source::{bare, nearest};
 

@@ -8,7 +8,6 @@ pub(crate) mod load;
 pub(crate) mod own_weight;
 pub(crate) mod placement;
 pub(crate) mod refused;
-pub(crate) mod tool;
 pub(crate) mod unusual;
 
 use crate::limits::{Beyond, Limits};

@@ -6,9 +6,8 @@ use kinetostat_cutting::{CutError, Edge, Engagement, Feed, Milling, Rotation, St
 use kinetostat_program::{Move, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 
-use crate::cut::drive::Drive;
 use crate::cut::finding::{CutFailure, CutFindingKind, Findings};
-use crate::cut::force::ForceOf;
+use crate::cut::force::{Drive, ForceOf};
 use crate::cut::profile::ForceAlongPath;
 use crate::cut::question::{CutQuestion, EngagementSource};
 use crate::cut::station::{ACROSS, ContactArc, CutStation, SHORT_MM};

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use kinetostat::number::{larger, short, smaller};
 use kinetostat_cutting::{Contact, Edge, Engagement, Feed, Milling, Rotation};
 
-use crate::cut::drive::Drive;
 use crate::cut::finding::{CutFindingKind, Findings};
+use crate::cut::force::Drive;
 use crate::cut::question::CutQuestion;
 use crate::cut::station::CutStation;
 

@@ -7,13 +7,11 @@
 //! [`crate::CuttingLoad::FromCut`].
 
 pub(crate) mod clock;
-pub(crate) mod drive;
 pub(crate) mod finding;
 pub(crate) mod force;
 pub(crate) mod forces;
 pub(crate) mod limits;
 pub(crate) mod measured;
-pub(crate) mod measured_report;
 pub(crate) mod measured_stations;
 pub(crate) mod profile;
 pub(crate) mod question;

@@ -6,7 +6,7 @@ use kinetostat_cutting::SpindleCurve;
 use serde::{Deserialize, Serialize};
 
 use crate::cut::finding::CutFinding;
-use crate::cut::measured_report::MeasuredReport;
+use crate::cut::measured_stations::MeasuredReport;
 use crate::cut::question::CutQuestion;
 use crate::cut::station::CutStation;
 use crate::profile::{ByMove, Profile, between, reduced};

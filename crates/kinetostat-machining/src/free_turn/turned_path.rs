@@ -3,10 +3,9 @@
 use kinetostat_program::{Arc, Curve, Feed, FeedMode, Knowledge, Move, Path, ToolTurn};
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::free_turn::checked::checked;
 use crate::free_turn::choice::TurnChoice;
 use crate::free_turn::error::TurnError;
-use crate::free_turn::task::TurnTask;
+use crate::free_turn::task::{TurnTask, checked};
 use crate::free_turn::way::{Section, Way};
 use crate::number::larger;
 

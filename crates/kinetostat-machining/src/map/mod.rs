@@ -20,7 +20,7 @@ use rayon::prelude::*;
 
 use crate::map::solved::Solved;
 use crate::postures::neighbour::{NEAR, Orientation};
-use crate::result::solving::one_by_one_because;
+use crate::result::summary::one_by_one_because;
 use crate::task::RunError;
 use crate::watch::Watch;
 

@@ -5,7 +5,6 @@
 
 pub(crate) mod damping;
 pub(crate) mod elastic;
-pub(crate) mod element;
 pub(crate) mod joint;
 pub(crate) mod link;
 pub(crate) mod part;

@@ -4,8 +4,8 @@ use kinetostat::model::Body;
 use kinetostat::number::short;
 use nalgebra::Matrix3;
 
+use crate::plausibility::LimbCheck;
 use crate::plausibility::at_home::{farthest, reach};
-use crate::plausibility::limb::LimbCheck;
 use crate::problem::{Finding, KeyPath};
 
 /// An inertia that no body has: a principal moment is larger than the sum of the others.

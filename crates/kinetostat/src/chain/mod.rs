@@ -15,13 +15,10 @@
 
 pub(crate) mod compliance;
 pub(crate) mod directions;
-pub(crate) mod divergence;
 pub(crate) mod equilibrium;
 pub(crate) mod graded;
 pub(crate) mod link_load;
-pub(crate) mod material;
 pub(crate) mod newton;
-pub(crate) mod potential;
 pub(crate) mod problem;
 pub(crate) mod residual;
 pub(crate) mod scaling;
@@ -36,8 +33,7 @@ pub use directions::{Direction, DirectionKind, Share};
 pub use equilibrium::Equilibrium;
 pub use graded::{uneven_springs, uneven_stiffness};
 pub use link_load::{LinkLoad, link_loads};
-pub use potential::{is_conservative, load_energy};
-pub use problem::{ChainProblem, EndCondition, Prescribed};
+pub use problem::{ChainProblem, EndCondition, Prescribed, is_conservative, load_energy};
 pub use residual::{FoundBy, Residual};
 pub use stability::ShapeStability;
 pub use stiffness::{ChainStiffness, unloaded_stiffness};

@@ -3,8 +3,7 @@
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 
 use crate::chain::equilibrium::{Equilibrium, Solution};
-use crate::chain::potential::is_conservative;
-use crate::chain::problem::{ChainProblem, Prescribed};
+use crate::chain::problem::{ChainProblem, Prescribed, is_conservative};
 use crate::chain::residual::{FoundBy, ResidualNorms};
 use crate::chain::scaling::{natural, scales_of, step_limit};
 use crate::chain::sweep::factor::STEP_SPRINGS;

@@ -12,8 +12,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::chain::equilibrium::Equilibrium;
-use crate::chain::potential::load_energy;
-use crate::chain::problem::{ChainProblem, Prescribed};
+use crate::chain::problem::{ChainProblem, Prescribed, load_energy};
 use crate::chain::residual::FoundBy;
 use crate::equilibrium::chain_search::{ChainSearch, Known};
 use crate::equilibrium::chain_starts::Bounds;

@@ -12,8 +12,7 @@ use std::cell::RefCell;
 use nalgebra::DVector;
 
 use crate::chain::equilibrium::Equilibrium;
-use crate::chain::potential::is_conservative;
-use crate::chain::problem::ChainProblem;
+use crate::chain::problem::{ChainProblem, is_conservative};
 use crate::chain::stability::ShapeStability;
 use crate::continuation::chain::system::ChainSystem;
 use crate::continuation::curve::{CurvePoint, Curves, SpecialKind};

@@ -22,7 +22,6 @@ pub(crate) mod found;
 pub(crate) mod inner_motion;
 pub(crate) mod limb_shapes;
 pub(crate) mod machine_search;
-pub(crate) mod no_equilibrium;
 pub(crate) mod search;
 
 pub use all_of_chain::{SearchSettings, equilibria};

@@ -1,18 +1,12 @@
 //! A machine in equilibrium: where its platforms are, what its limbs carry, how stiff it is there and whether it
 //! stays [R 6.21-6.30].
 
-use nalgebra::Matrix6;
-#[cfg(feature = "serde")]
-use serde::{Deserialize, Serialize};
-
 use crate::chain::compliance::{CartesianCompliance, stiffness_against_force};
 use crate::chain::directions::{Direction, DirectionKind, Share};
-use crate::chain::divergence::TangentMotions;
 use crate::chain::link_load::{LinkLoad, link_loads};
-use crate::chain::potential::load_energy;
-use crate::chain::problem::{ChainProblem, EndCondition};
+use crate::chain::problem::{ChainProblem, EndCondition, load_energy};
 use crate::chain::residual::{FoundBy, Residual};
-use crate::chain::stability::ShapeStability;
+use crate::chain::stability::{ShapeStability, TangentMotions};
 use crate::chain::stiffness::ChainStiffness;
 use crate::error::{Error, Result};
 use crate::linalg::sparse::Sparse;
@@ -31,6 +25,9 @@ use crate::machine::state::MechanismState;
 use crate::model::mechanism::Mechanism;
 use crate::number::smaller;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual};
+use nalgebra::Matrix6;
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
 
 /// Stability of the platform.
 #[derive(Clone, Debug, PartialEq)]

@@ -18,7 +18,6 @@ pub(crate) mod following;
 pub(crate) mod forward;
 pub(crate) mod graded;
 pub(crate) mod inverse;
-pub(crate) mod limb_stiffness;
 pub(crate) mod linearised;
 pub(crate) mod mobility;
 pub(crate) mod negative_stiffness;
@@ -31,13 +30,11 @@ pub(crate) mod request;
 pub(crate) mod singular;
 pub(crate) mod state;
 pub(crate) mod stiffness;
-pub(crate) mod turned_loads;
 
 pub use assembly::LinearAssembly;
 pub use constraints::{Overconstraint, SelfStress};
 pub use equilibrium::{LimbEquilibrium, MechanismEquilibrium, PlatformStability};
 pub use inverse::limb::{LimbPosture, inverse_kinematics};
-pub use limb_stiffness::{JointSensitivity, LimbStiffness};
 pub use linearised::{
     LinearisedMachine, MachineMotion, MachineResidual, MachineTangents, WorkOf, WorkTerm,
 };
@@ -46,4 +43,4 @@ pub use posture::Posture;
 pub use request::PostureRequest;
 pub use singular::near::{NearSingularity, SingularityKind};
 pub use state::MechanismState;
-pub use stiffness::UnloadedStiffness;
+pub use stiffness::{JointSensitivity, LimbStiffness, UnloadedStiffness};

@@ -13,12 +13,10 @@ mod judged;
 mod question;
 mod site;
 mod speeds;
-mod stretches;
 
-pub use along::ProgramChatter;
+pub use along::{ChatterStretch, ProgramChatter};
 pub use forced::ForcedVibration;
 pub use judged::{JudgedSite, Verdict};
 pub use question::{ChatterQuestion, ProgramChatterError};
 pub use site::{CutSite, WithoutSide};
 pub use speeds::StableSpeed;
-pub use stretches::ChatterStretch;

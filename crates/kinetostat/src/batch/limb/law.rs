@@ -7,8 +7,8 @@ use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::symmetric::Symmetric;
 use crate::batch::numbers::wrenches::Mat6;
 use crate::model::springs::bilinear::SingleLaw;
+use crate::model::springs::block::{SpringLaw, if_curved, if_single};
 use crate::model::springs::curved::CurvedLaw;
-use crate::model::springs::law::{SpringLaw, if_curved, if_single};
 use crate::model::springs::parallelogram::ParallelogramLaw;
 
 /// Compliance of a parallelogram at its inclination (rad) in the six directions, the missing one

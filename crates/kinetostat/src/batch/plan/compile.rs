@@ -10,9 +10,8 @@ use crate::batch::plan::steps::{
 use crate::batch::status::NoKernel;
 use crate::model::chain::{Chain, Element, Motion, Role};
 use crate::model::kinematics::Kinematics;
-use crate::model::springs::block::{SpringBlock, SpringLaw};
+use crate::model::springs::block::{SpringBlock, SpringLaw, if_curved, if_single};
 use crate::model::springs::curved::CurvedLaw;
-use crate::model::springs::law::{if_curved, if_single};
 use crate::spatial::{MotionKind, Pose};
 
 impl Plan {

@@ -1,8 +1,7 @@
 //! The compiled form of a limb: a list of steps with constants folded, which the kernels go along.
 
 use crate::model::chain::Chain;
-use crate::model::springs::block::SpringBlock;
-use crate::model::springs::law::SpringLaw;
+use crate::model::springs::block::{SpringBlock, SpringLaw};
 use crate::model::springs::parallelogram::ParallelogramLaw;
 use crate::spatial::MotionKind;
 

@@ -3,14 +3,13 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::chain::equilibrium::{disparate, rounding};
-use crate::chain::material::{MaterialUnits, material_springs};
+use crate::chain::graded::{MaterialUnits, material_springs};
 use crate::chain::residual::ResidualNorms;
 use crate::chain::sweep::stages::{ChainMethod, turned_rows};
 use crate::continuation::chain::system::ChainSystem;
 use crate::continuation::linear::curve_matrix::CurveMatrix;
 use crate::continuation::linear::curve_sweep::CurveSweep;
-use crate::continuation::linear::dense_matrix::{StateUnits, Whole};
-use crate::continuation::linear::tangent::NullDirections;
+use crate::continuation::linear::tangent::{NullDirections, StateUnits, Whole};
 use crate::continuation::settings::Parameter;
 use crate::model::chain::Role;
 use crate::number::larger;

@@ -5,13 +5,11 @@
 //! these `displacement_curve` and [`curves`] [R 5.5.3, Table 5.3].
 
 pub(crate) mod curves;
-pub(crate) mod deflection;
 pub(crate) mod displacement_curve;
 pub(crate) mod free_motion;
 pub(crate) mod growing_load;
 pub(crate) mod relaxation;
 pub(crate) mod system;
 pub(crate) mod tool_conditions;
-pub(crate) mod tool_equilibrium;
 pub(crate) mod tool_stability;
 pub(crate) mod tool_steps;

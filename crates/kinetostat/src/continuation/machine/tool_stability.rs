@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 
 use crate::chain::directions::{Direction, DirectionKind};
-use crate::chain::divergence::{TangentMotions, diverging_motions};
 use crate::chain::graded::{levels, root_rows};
+use crate::chain::stability::{TangentMotions, diverging_motions};
 use crate::continuation::curve::{CurveEquilibrium, CurveStability};
 use crate::continuation::machine::tool_conditions::ToolConditions;
 use crate::linalg::complement::complement;

@@ -8,7 +8,6 @@ pub(crate) mod branch_switching;
 pub(crate) mod describe;
 pub(crate) mod jumps;
 pub(crate) mod segment;
-pub(crate) mod singular_point;
 pub(crate) mod special_points;
 pub(crate) mod system;
 pub(crate) mod tracer;

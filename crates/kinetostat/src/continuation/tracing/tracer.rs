@@ -9,8 +9,8 @@ use crate::continuation::curve::{BranchEnd, Stop};
 use crate::continuation::linear::family::Family;
 use crate::continuation::linear::tangent::Tangent;
 use crate::continuation::settings::CurveSettings;
+use crate::continuation::tracing::bifurcation::start_direction;
 use crate::continuation::tracing::describe::{describe, family_of, tangent};
-use crate::continuation::tracing::singular_point::start_direction;
 use crate::continuation::tracing::special_points;
 use crate::continuation::tracing::system::{
     Corrected, CurveSystem, HalfBranch, Point, Row, SpecialPoint, distance,

@@ -15,6 +15,5 @@ pub(crate) mod bilinear;
 pub(crate) mod block;
 pub(crate) mod bowing;
 pub(crate) mod curved;
-pub(crate) mod law;
 pub(crate) mod logarithm;
 pub(crate) mod parallelogram;
