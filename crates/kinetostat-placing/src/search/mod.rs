@@ -121,9 +121,9 @@ impl Search<'_, '_> {
                 place: best.place.clone(),
                 value: at(&best.place),
             };
-            placed.sensitivity = sensitivity(space, &worth, &at);
+            placed.sensitivity = sensitivity(space, &worth, at);
             if self.effort.maps {
-                placed.maps = maps(space, &best.place, &at);
+                placed.maps = maps(space, &best.place, at);
             }
             placed.findings = self.findings(&placed, &best);
         } else {
@@ -167,7 +167,7 @@ impl Search<'_, '_> {
     fn all_refined(&self, starts: Vec<Evaluated>, active: &[usize], step: f64) -> Vec<Evaluated> {
         let worth = |place: &Place| self.worth(place, active);
         let found = starts.into_par_iter();
-        let found = found.map(|start| refined(self.space(), start, step, &worth));
+        let found = found.map(|start| refined(self.space(), start, step, worth));
         let mut found: Vec<Evaluated> = found.collect();
         found.sort_by(|a, b| a.value.order(&b.value));
         found
