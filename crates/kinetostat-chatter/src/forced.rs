@@ -1,6 +1,6 @@
 //! Forced vibration: teeth that come and go shake the tool, and what it does at the moment a tooth makes the wall is left on it.
 //!
-//! `force` is a periodic force by its harmonics; `vibration` what a tool does under it. A vibration that comes back with
+//! [`PeriodicForce`] is a periodic force by its harmonics; [`Vibration`] is the motion of a tool under it. A vibration that comes back with
 //! every tooth leaves each tooth the track that it makes itself: the chip is that of the feed alone, and regeneration
 //! changes nothing, however near a lobe is. Source: `dynamics.md` section 9.
 

@@ -100,7 +100,7 @@ pub(crate) fn normal(angle: f64) -> Vector3<f64> {
     Vector3::new(s, c, 0.0)
 }
 
-/// Integral of [`at`] from 0 to an angle, N/m^2 rad.
+/// Integral of [`directional_matrix`] from 0 to an angle, N/m^2 rad.
 pub(crate) fn directional_integral(coefficients: &Coefficients, angle: f64) -> Matrix3<f64> {
     let (s, c) = angle.sin_cos();
     let (kt, kr, ka) = (

@@ -1,7 +1,7 @@
 //! Measured responses: read, fitted, compared with a model, and what of a model's parameters they tell.
 //!
 //! `response` is one measured curve; `universal` and `columns` read files of it; `fit` finds modes by rational
-//! fraction polynomials; `compare` pairs them with a model's; `scaling` scales parameters of a model to them.
+//! fraction polynomials; `scaling` pairs them with a model's, and scales parameters of the model to them.
 
 mod columns;
 mod fit;

@@ -1,6 +1,6 @@
 //! Files of other programs: matrices of one link or of many nodes, meshes, displacements, loads.
 //!
-//! Takes a [`Text`](crate::Text); gives numbers with their units, or refuses a line with what to do. Computes nothing with
+//! Takes a [`Text`]; gives numbers with their units, or refuses a line with what to do. Computes nothing with
 //! them.
 
 pub(crate) mod calculix;

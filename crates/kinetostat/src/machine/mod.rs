@@ -3,7 +3,7 @@
 //! Takes a [`Mechanism`](crate::Mechanism) and a target of the tool, gives the commands of the actuators (`inverse`), the
 //! posture, its unloaded stiffness, what the limbs constrain, how near a singular posture is (`singular`), what assembly
 //! with errors does to first order (`assembly`), and which joints and springs take part in a motion of the tool
-//! (`participation`, `negative_stiffness`). `limb_stiffness` is each limb's share in the tangent. `linearised` is an equilibrium's tangent with all coordinates kept: who stores what of
+//! (`participation`, `negative_stiffness`). `stiffness` has each limb's share in the tangent, too. `linearised` is an equilibrium's tangent with all coordinates kept: who stores what of
 //! a deflection, and where the equilibrium goes as the machine changes. `platforms` is the equilibrium of the platforms at one share of the load.
 //!
 //! ```text

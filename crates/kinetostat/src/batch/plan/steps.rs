@@ -105,8 +105,7 @@ pub(crate) struct Spring {
     pub own_weight: Option<OwnWeight>,
 }
 
-/// Effect of the weight of a mass along a segment besides that of its halves at the ends, see
-/// [`crate::batch::plan::segments`].
+/// Effect of the weight of a mass along a segment besides that of its halves at the ends, see [`own_weight`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OwnWeight {
     /// Index of the half of the mass at the near end, among the masses of the limb.

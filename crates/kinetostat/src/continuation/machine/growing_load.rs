@@ -240,8 +240,8 @@ impl Posture {
     /// gravity, preloads and assembly errors of the model.
     ///
     /// # Errors
-    /// [`Error::NotConverged`](crate::Error::NotConverged) with the last state and share of the load, and the limit point if
-    /// one lies before it; [`Error::FreeDirection`](crate::Error::FreeDirection) where the load pushes on along a motion that
+    /// [`Error::NotConverged`] with the last state and share of the load, and the limit point if
+    /// one lies before it; [`Error::FreeDirection`] where the load pushes on along a motion that
     /// nothing holds, as far as it can be followed.
     ///
     /// ```
