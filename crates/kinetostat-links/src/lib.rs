@@ -25,7 +25,6 @@ mod interface;
 pub mod internal;
 mod stiffness_check;
 mod superelement;
-mod table;
 mod text;
 mod units;
 
@@ -45,6 +44,5 @@ pub use stiffness_check::{
     DIRECTIONS, Finding, Grade, SYMMETRIC_TO, StiffnessCheck, check_stiffness, symmetrised,
 };
 pub use superelement::{Dof, MOST_DOFS, Superelement};
-pub use table::{in_n_mm, stiffness_table};
 pub use text::{MOST_BYTES, Text, number};
-pub use units::{UNITS, Units};
+pub use units::{UNITS, Units, in_n_mm, stiffness_table};
