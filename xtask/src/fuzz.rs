@@ -79,13 +79,13 @@ pub fn run(options: &[&str]) -> Result<()> {
         ("fuzz of options", "every_option::random"),
         ("fuzz of jobs over commands", "jobs_over_commands::"),
     ] {
-        commands(what, test, (time / 12.0, seed))?;
+        commands(what, test, time / 12.0, seed)?;
     }
     Ok(())
 }
 
 /// Random command lines and jobs, in the tests of the command line. One run is repeated with its seed.
-fn commands(what: &str, test: &str, (minutes, seed): (f64, &str)) -> Result<()> {
+fn commands(what: &str, test: &str, minutes: f64, seed: &str) -> Result<()> {
     let mut command = cargo();
     command.args(["test", "--quiet", "--profile", "fuzz"]);
     command.args(["--package", "kinetostat-cli", "--test", "cli", test]);

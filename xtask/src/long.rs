@@ -35,7 +35,7 @@ pub fn run(options: &[&str]) -> Result<()> {
         let count = blocks / share;
         surface(&here.join(format!("{count}.ngc")), count)?;
         eprintln!("== long: {count} blocks");
-        let used = run_once(&here, &question(&here, count, "whole.ngc", (MACHINE, 1)))?;
+        let used = run_once(&here, &question(&here, count, "whole.ngc", MACHINE, 1))?;
         let (seconds, memory_mb) = (used.user_s, used.memory_mb);
         println!(
             r#"figure {{"name": "long program: memory with {count} blocks", "measured": {memory_mb:.0}, "asked": 300, "unit": "MB", "holds": {}}}"#,
@@ -52,7 +52,7 @@ pub fn run(options: &[&str]) -> Result<()> {
     rate("orthoglide", b / last, 1e5);
     killed(&here, blocks, kills, times[2].1)?;
     let count = blocks / 10;
-    let used = run_once(&here, &question(&here, count, "whole.ngc", (ARM, 1)))?;
+    let used = run_once(&here, &question(&here, count, "whole.ngc", ARM, 1))?;
     rate("heavy_6r", count as f64 / used.user_s, 3e4);
     Ok(())
 }
@@ -79,7 +79,7 @@ pub fn measured(figures: &mut Vec<Figure>) -> Result<()> {
     surface(&here.join(format!("{BLOCKS}.ngc")), BLOCKS)?;
     for (model, machine, asked) in [("orthoglide", MACHINE, 1e5), ("heavy_6r", ARM, 3e4)] {
         let run = |threads: usize| {
-            let words = question(&here, BLOCKS, "whole.ngc", (machine, threads));
+            let words = question(&here, BLOCKS, "whole.ngc", machine, threads);
             run_once(&here, &words)
         };
         let (two, used) = (run(2)?, run(1)?);
@@ -180,12 +180,7 @@ const MACHINE: &str =
 const ARM: &str =
     "--model heavy_6r --tool-length-mm 200 --part-origin-mm 1450 70 500 --tolerance-um 20";
 
-fn question(
-    here: &Path,
-    blocks: usize,
-    out: &str,
-    (machine, threads): (&str, usize),
-) -> Vec<String> {
+fn question(here: &Path, blocks: usize, out: &str, machine: &str, threads: usize) -> Vec<String> {
     let program = here.join(format!("{blocks}.ngc"));
     let out = here.join(out);
     let words =
@@ -253,7 +248,8 @@ fn killed(here: &Path, blocks: usize, kills: u64, seconds: f64) -> Result<()> {
                 here,
                 blocks,
                 "killed.ngc",
-                (MACHINE, KILLED_THREADS),
+                MACHINE,
+                KILLED_THREADS,
             ))
             .stdout(Stdio::null())
             .spawn()?;

@@ -15,7 +15,6 @@ mod law;
 mod material;
 mod measured;
 mod milling;
-mod names;
 mod number;
 mod number_columns;
 mod source;

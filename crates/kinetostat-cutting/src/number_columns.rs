@@ -4,7 +4,7 @@
 //! as is a mark of byte order before the first. What is wrong is named with file and line.
 
 use crate::error::{CutError, CutErrorKind, Result};
-use crate::names::{bare, nearest};
+use crate::source::{bare, nearest};
 
 /// Separators of cells, for messages.
 const SEPARATED: &str = "with commas or semicolons between them";

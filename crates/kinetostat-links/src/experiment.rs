@@ -7,8 +7,7 @@
 //! what is not is noise (or a mistake in axes and points): its share is reported, and compared with what
 //! the residuals of the fits explain.
 
-use kinetostat::number::larger;
-use kinetostat::number::short;
+use kinetostat::number::{larger, short};
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 
 use crate::error::{Error, LinkErrorKind, Result};

@@ -25,13 +25,11 @@ mod interface;
 pub mod internal;
 mod stiffness_check;
 mod superelement;
-mod table;
 mod text;
 mod units;
 
-pub use beam::material::{MATERIALS, Material, material};
 pub use beam::section::{Properties, SectionShape};
-pub use beam::taper::{Shear, cantilever, cantilever_by};
+pub use beam::taper::{MATERIALS, Material, Shear, cantilever, cantilever_by, material};
 pub use condensation::condense::{CondensationRequest, Condensed, Tie, condense};
 pub use condensation::envelope::MOST_ENVELOPE;
 pub use condensation::free_test::{FreeTest, free_test};
@@ -40,12 +38,11 @@ pub use experiment::{Identified, LoadCase, identify};
 pub use files::displacements::{LoadTable, read_displacements, read_loads, unit_loads};
 pub use files::matrix::{LinkMatrix, axes_from, read_matrix};
 pub use files::nodes::{Nodes, read_nodes};
-pub use files::superelement::read_superelement;
+pub use files::read_superelement;
 pub use interface::{RigidFit, RigidRank, rigid_fit, rigid_rank, spider};
 pub use stiffness_check::{
     DIRECTIONS, Finding, Grade, SYMMETRIC_TO, StiffnessCheck, check_stiffness, symmetrised,
 };
 pub use superelement::{Dof, MOST_DOFS, Superelement};
-pub use table::{in_n_mm, stiffness_table};
 pub use text::{MOST_BYTES, Text, number};
-pub use units::{UNITS, Units};
+pub use units::{UNITS, Units, in_n_mm, stiffness_table};

@@ -1,8 +1,7 @@
 //! Is this 6 x 6 matrix the stiffness of a link? Symmetric, positive (semi-)definite, of which rank,
 //! and of a plausible size; and in words what it is not.
 
-use kinetostat::number::{larger, smaller};
-use kinetostat::number::{setting, short};
+use kinetostat::number::{larger, setting, short, smaller};
 use nalgebra::{Matrix6, Vector6};
 
 /// Names of the six directions.

@@ -6,7 +6,7 @@
 use kinetostat::{Mechanism, Pose};
 
 use crate::free_turn::serial::SerialArm;
-use crate::joints::arm::Arm;
+use crate::joints::Arm;
 use crate::result::joints::ArmConfiguration;
 
 /// Longest step of the way from one pose to another, m.

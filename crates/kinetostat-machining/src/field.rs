@@ -13,8 +13,7 @@ use crate::measured_frame::{FrameMotion, MeasuredFrame, PartPlace};
 use crate::near::natural_length;
 use crate::placement::Placement;
 use crate::postures::arm_course::ArmCourse;
-use crate::postures::neighbour::{Neighbour, in_chunks};
-use crate::postures::orientation::Orientation;
+use crate::postures::neighbour::{Neighbour, Orientation, in_chunks};
 
 /// Answers, for every point of a path, what must be added to the program so that the tool is there
 /// under the load of the program.
@@ -89,12 +88,10 @@ impl<'a> ModelField<'a> {
             None => self
                 .load
                 .wrench(&self.placement, request.move_index, request.share),
-            Some(turn) => self.load.turning_wrench(
-                &self.placement,
-                (turn.from_move, turn.from_share),
-                (request.move_index, turn.to_share),
-                turn.part,
-            ),
+            Some(turning) => {
+                self.load
+                    .turning_wrench(&self.placement, request.move_index, &turning)
+            }
         }
     }
 }
@@ -188,7 +185,7 @@ impl ModelField<'_> {
                 let all = requests.iter().zip(&wrenches).zip(&motions);
                 return all
                     .map(|((r, wrench), motion)| {
-                        self.by_axes(&mut memory[0], mechanism, (r, wrench, motion))
+                        self.by_axes(&mut memory[0], mechanism, r, wrench, motion)
                     })
                     .collect();
             }
@@ -208,7 +205,7 @@ impl ModelField<'_> {
                     memory[0].stand_at(posture);
                 }
                 memory[0]
-                    .target(mechanism, pose, wrench, (orientation, self.corrected))
+                    .target(mechanism, pose, wrench, orientation, self.corrected)
                     .map(|posture| correction(programmed, posture.target()))
                     .map_err(|error| FieldFailure::new(cause_and_advice(&error)))
             })
@@ -255,7 +252,9 @@ impl ModelField<'_> {
         &self,
         memory: &mut Neighbour,
         mechanism: &Mechanism,
-        (request, wrench, measured): (&Request, &Wrench, &FrameMotion),
+        request: &Request,
+        wrench: &Wrench,
+        measured: &FrameMotion,
     ) -> Result<Correction, FieldFailure> {
         let failed = |error: Error| FieldFailure::new(cause_and_advice(&error));
         let path = self.load.path();

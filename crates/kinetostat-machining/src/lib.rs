@@ -22,7 +22,6 @@ mod placement;
 mod postures;
 mod profile;
 mod result;
-mod rigid_motion;
 mod run;
 mod table;
 mod task;
@@ -32,25 +31,18 @@ mod watch;
 mod weight_correction;
 
 pub use arm_joints::ArmJoints;
-pub use checks::correction::odd_correction;
-pub use checks::displacement::{folds, folds_at, is_large};
+pub use checks::correction::{folds, folds_at, is_large, odd_correction};
 pub use checks::load::{large_load, unusual_load};
-pub use checks::placement::origin_in_metres;
+pub use checks::placement::{beyond_tool_length, odd_tool_length, origin_in_metres};
 pub use checks::refused::{fastest_feed, of_accounting};
-pub use checks::tool::{beyond_tool_length, odd_tool_length};
 pub use checks::unusual::{odd_tolerances, unusual_question};
-pub use cut::choice::ForceChoice;
 pub use cut::clock::DwellUnit;
-pub use cut::cutting_tool::CuttingTool;
-pub use cut::engagement_source::EngagementSource;
-pub use cut::failure::CutFailure;
-pub use cut::finding::{CutFinding, CutFindingKind};
+pub use cut::finding::{CutFailure, CutFinding, CutFindingKind};
 pub use cut::limits::deeper_than_edges;
 pub use cut::measured::MeasuredForces;
-pub use cut::measured_report::{ActsOn, MeasuredAxes, MeasuredReport};
-pub use cut::origin::ForceOrigin;
-pub use cut::profile::ForceAlongPath;
-pub use cut::question::CutQuestion;
+pub use cut::measured_stations::{ActsOn, MeasuredAxes, MeasuredReport};
+pub use cut::profile::{ForceAlongPath, ForceOrigin};
+pub use cut::question::{CutQuestion, CuttingTool, EngagementSource, ForceChoice};
 pub use cut::station::{ContactArc, CutStation};
 pub use field::ModelField;
 pub use flat_program::FlatProgram;
@@ -72,6 +64,7 @@ pub use map::{
     Entry, EvaluationRoom, Evaluator, Grid, MAP_BLOCK, MapPlace, MapTask, Outcome, PlaceState,
     VARIABLES, Variable, Width, Worse, map,
 };
+pub use measured_frame::{nearest_rotation, rigid_motion};
 pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singular};
 pub use placement::Placement;
 pub use postures::configurations::{Configurations, posture_at};
@@ -83,34 +76,30 @@ pub use result::feature::{
     Feature, FeatureResult, add_to_features, feature_results, judge_features,
 };
 pub use result::figures::Figures;
-pub use result::force_band::ForceBand;
 pub use result::joints::{
     ArmConfiguration, Elbow, JointsResult, LimitEnd, LimitPlace, MostLoaded, NearestLimit,
     PostureChange, RatingPlace, Shoulder, WayOut, Wrist,
 };
 pub use result::kept_points::KeptPoints;
-pub use result::largest_change::LargestChange;
-pub use result::point::{PointKind, PointResult};
-pub use result::program_place::ProgramPlace;
-pub use result::run_inputs::{ActuatorColumn, FileRead, RunInputs, ToolAtCorners};
-pub use result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
+pub use result::point::{PointKind, PointResult, ProgramPlace};
+pub use result::run_result::{
+    ActuatorColumn, FileRead, NearSingularPlace, RESULT_SCHEMA, RunInputs, RunResult, ToolAtCorners,
+};
 pub use result::selection::{farthest_off, thinned};
-pub use result::solving::{FoundCount, Solving};
-pub use result::summary::Summary;
+pub use result::summary::{FoundCount, LargestChange, Solving, Summary};
 pub use result::tolerance::{
     MissedTolerance, ToleranceResult, keeps_as_it_is, of_table, unchanged_text,
 };
-pub use result::uncertainty_band::{BandPlace, ScatteredError, UncertainNumber, UncertaintyBand};
-pub use rigid_motion::{nearest_rotation, rigid_motion};
+pub use result::uncertainty_band::{
+    BandPlace, ForceBand, ScatteredError, UncertainNumber, UncertaintyBand,
+};
 pub use run::compensate::{analyse, analyse_part, compensate_part, compensate_program};
 pub use run::conclude::{Run, load_description, marked_as_compensated, of_program};
 pub use run::cutting::{cut_places, cutting_result};
-pub use run::look_at_part::look_at_part;
 pub use run::merged::MergedRun;
 pub use run::movable::{MovableProgram, Reach};
 pub use run::places::wrenches_at;
-pub use run::preparation::{OfWhole, with_model_field};
-pub use run::refused_question::refused_question;
+pub use run::preparation::{OfWhole, look_at_part, refused_question, with_model_field};
 pub use run::summary::feed_arcs;
 pub use table::{FieldCorrection, correct_by_field, wide_table};
 pub use task::{Bounds, NoMotion, RunError, Task, ToolGiven};

@@ -8,7 +8,7 @@ use crate::cut::profile::ForceAlongPath;
 use crate::limits::{Beyond, Limits};
 use crate::load::law::{ProgramLoad, Tool, tool_on};
 use crate::placement::Placement;
-use crate::result::run_inputs::RunInputs;
+use crate::result::run_result::RunInputs;
 use crate::weight_correction::WeightCorrection;
 
 /// Everything that decides a run.

@@ -10,17 +10,15 @@ use crate::assembly::controller::{Controller, controller};
 use crate::assembly::mechanism::assemble;
 use crate::assembly::repair::others;
 use crate::elements::damping::{damping, damping_place};
-use crate::elements::placement::{three_digits, written, written_pose};
+use crate::elements::placement::{corners, three_digits, written, written_pose};
 use crate::elements::rotary::{RotaryAxis, rotary_axes};
-use crate::elements::workspace::corners;
 use crate::findings::Findings;
 use crate::plausibility::home::{NOTHING_YIELDS, without_stiffness};
 use crate::presets::{preset_text, unknown_preset};
 use crate::problem::{Finding, KeyPath, ModelError, Problem, Severity};
 use crate::schema::{Deviation, Document, Element};
 use crate::text::check::{check, schema};
-use crate::text::file::{MOST_BYTES, read_text};
-use crate::text::source::Source;
+use crate::text::source::{MOST_BYTES, Source, read_text};
 
 /// A machine, as written and as the core sees it.
 #[derive(Clone, Debug)]

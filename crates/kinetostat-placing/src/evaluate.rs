@@ -7,9 +7,8 @@ use nalgebra::{Point3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::objective::Objective;
 use crate::space::{Place, Space};
-use crate::value::{Refusal, Value, Why};
+use crate::value::{Objective, Refusal, Value, Why};
 
 /// Objective and constraints of a search.
 #[derive(Clone, Debug, Default)]
@@ -99,7 +98,7 @@ impl Evaluator<'_> {
                 return Ok(refused(refusal, vec![places[at]]));
             }
             let all = places.len() == self.program.len();
-            if let Some(found) = self.changes(lies, (places, &points), all) {
+            if let Some(found) = self.changes(lies, places, &points, all) {
                 return Ok(found);
             }
             points.iter().map(|point| objective.figure(point)).collect()
@@ -137,7 +136,8 @@ impl Evaluator<'_> {
     fn changes(
         &self,
         lies: Placement,
-        (places, points): (&[usize], &[kinetostat_machining::PointResult]),
+        places: &[usize],
+        points: &[kinetostat_machining::PointResult],
         all: bool,
     ) -> Option<OnAll> {
         let numbered = places.iter().zip(points).filter_map(|(i, point)| {

@@ -8,8 +8,6 @@
 
 mod answer;
 mod evaluate;
-mod maps;
-mod objective;
 mod refine;
 mod search;
 mod sensitivity;
@@ -19,9 +17,7 @@ mod value;
 pub use answer::{
     Candidate, Evaluated, Finding, MapPanel, Nowhere, Placed, Sensitivity, SideSensitivity,
 };
-pub use evaluate::Question;
-pub use evaluate::{Obstacle, PartBox};
-pub use objective::Objective;
+pub use evaluate::{Obstacle, PartBox, Question};
 pub use search::{Effort, place};
 pub use space::{Fixture, Place, Range, Space, SpaceError, Variable};
-pub use value::{Refusal, Value, Why};
+pub use value::{Objective, Refusal, Value, Why};

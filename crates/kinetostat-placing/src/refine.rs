@@ -9,6 +9,7 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 use sobol_burley::sample;
 
+use crate::answer::Evaluated;
 use crate::space::{Place, Space};
 use crate::value::Value;
 
@@ -21,12 +22,9 @@ const ROUNDS: u32 = 60;
 /// Seed of the directions.
 const SEED: u32 = 77;
 
-/// A placement and what it is worth.
-pub(crate) type Worth = (Place, Value);
-
 /// The better of two; of equal ones the first.
-fn better(a: Worth, b: Worth) -> Worth {
-    match b.1.order(&a.1).is_lt() {
+fn better(a: Evaluated, b: Evaluated) -> Evaluated {
+    match b.value.order(&a.value).is_lt() {
         true => b,
         false => a,
     }
@@ -35,10 +33,10 @@ fn better(a: Worth, b: Worth) -> Worth {
 /// The best placement that is found from one on, with steps that begin at a share of the ranges.
 pub(crate) fn refined(
     space: &Space,
-    start: Worth,
+    start: Evaluated,
     step: f64,
-    worth: &(impl Fn(&Place) -> Value + Sync),
-) -> Worth {
+    worth: impl Fn(&Place) -> Value + Sync,
+) -> Evaluated {
     let size = space.ranges().len();
     let mut best = start;
     if size == 0 {
@@ -46,23 +44,23 @@ pub(crate) fn refined(
     }
     let mut step = step;
     for round in 0..ROUNDS {
-        let shares = DVector::from_vec(space.shares(&best.0));
+        let shares = DVector::from_vec(space.shares(&best.place));
         let frame = frame(size, round);
         let tried: Vec<Place> = frame
             .iter()
             .flat_map(|direction| [1.0, -1.0].map(|sign| &shares + direction * (sign * step)))
-            .map(|shares| space.at(best.0.fixture, shares.as_slice()))
-            .filter(|place| *place != best.0)
+            .map(|shares| space.at(best.place.fixture, shares.as_slice()))
+            .filter(|place| *place != best.place)
             .collect();
-        let found: Vec<Worth> = tried
+        let found: Vec<Evaluated> = tried
             .into_par_iter()
             .map(|place| {
                 let value = worth(&place);
-                (place, value)
+                Evaluated { place, value }
             })
             .collect();
         let next = found.into_iter().fold(best.clone(), better);
-        match next.0 == best.0 {
+        match next.place == best.place {
             true => step /= 2.0,
             false => {
                 step *= 1.5;

@@ -1,16 +1,20 @@
 //! Machines as functions of uncertain numbers, along a program: commanded by the program as it is, and by the one that was written for the
 //! machine as drawn.
 
-use kinetostat::batch::{Batch, BatchEquilibrium, Commanded, Details};
+use kinetostat::batch::{Batch, BatchEquilibrium, Commanded, Details, LoadedBatch};
 use kinetostat::nalgebra::Vector3;
 use kinetostat::number::larger;
 use kinetostat::{Mechanism, Pose, Wrench};
-use kinetostat_machining::ProgramPlace;
+use kinetostat_machining::{BandPlace, ProgramPlace, ScatteredError, UncertaintyBand, Watch};
 use kinetostat_model::{Model, ParametricModel};
 
+use crate::draws::Draws;
 use crate::file::{CUTTING_PARTS, Source, UncertaintyFile};
+use crate::linear::Linear;
 use crate::machine::{DependsOnMachine, Room, TaskError, at};
 use crate::near_drawing::{MOST_DERIVATIVES, Margins, with_stability};
+use crate::statistics::{CONFIDENCE, quantile};
+use crate::study::{OutputAnswer, Samples, answers, linearised, monte_carlo};
 use crate::uncertain::Uncertainties;
 
 /// Parts of the force of the cut at every place: what one of them would be more by, if it were as large again.
@@ -88,7 +92,8 @@ impl UncertainRun {
         model: &Model,
         tools: &[(Option<u32>, Pose)],
         file: &UncertaintyFile,
-        (places, compensated): (&[ProgramPlace], bool),
+        places: &[ProgramPlace],
+        compensated: bool,
         parts: Option<CuttingParts>,
     ) -> Result<Self, TaskError> {
         let parametric = model.parametric(&file.parameters())?;
@@ -176,7 +181,8 @@ impl UncertainRun {
             if i >= MOST_DERIVATIVES {
                 continue;
             }
-            let [more, less] = [&more, &less].map(|(batch, loads)| (batch, &loads[..]));
+            let [more, less] =
+                [&more, &less].map(|(batch, wrenches)| LoadedBatch { batch, wrenches });
             own.programmed.go_along(more, less, 2.0 * step)?;
             if self.compensated {
                 own.commanded.go_along(more, less, 2.0 * step)?;
@@ -284,4 +290,73 @@ impl DependsOnMachine for UncertainRun {
         }
         Ok(unstable)
     }
+}
+
+/// Shares of the machines between which a band lies, and its middle.
+const BAND: [f64; 3] = [0.05, 0.5, 0.95];
+
+/// Draws machines and gives the band of the errors; `name` is that of the file, `seed` that of the draws.
+///
+/// # Errors
+/// [`TaskError`] where a machine next to the drawing is none, or the watch stops the work.
+pub fn band(
+    run: &UncertainRun,
+    file: &UncertaintyFile,
+    name: &str,
+    seed: u64,
+    draws: &Draws,
+    watch: &dyn Watch,
+) -> Result<UncertaintyBand, TaskError> {
+    let samples = monte_carlo(run, &file.uncertainties, draws, watch)?;
+    let each = run.columns();
+    let mut lines: Vec<Linear> = linearised(run, &file.uncertainties)?;
+    // Only the largest errors are propagated linearly; places have quantiles.
+    lines.truncate(each);
+    let largest = answers(&file.uncertainties, draws, &samples, lines);
+    let mut band = UncertaintyBand::default();
+    name.clone_into(&mut band.file);
+    band.uncertain = file.uncertainties.as_stated();
+    band.machines = draws.len();
+    band.unanswered = samples.failures.no_machine + samples.failures.no_answer;
+    band.unstable = samples.failures.unstable;
+    band.seed = seed;
+    band.confidence = CONFIDENCE;
+    band.places = places(run, &samples);
+    let mut scattered = largest.iter().map(scattered);
+    band.before = scattered.next().unwrap_or_default();
+    band.after = scattered.next();
+    Ok(band)
+}
+
+fn scattered(answer: &OutputAnswer) -> ScatteredError {
+    let draws = &answer.draws;
+    let high = draws.quantiles.iter().find(|q| q.share == BAND[2]);
+    ScatteredError {
+        as_drawn_mm: answer.linear.nominal,
+        mean_mm: draws.mean.value,
+        deviation_mm: draws.standard_deviation.value,
+        deviation_plus_minus_mm: draws.standard_deviation.plus_minus,
+        low_mm: draws.quantile(BAND[0]),
+        high_mm: draws.quantile(BAND[2]),
+        high_at_most_mm: high.and_then(|q| q.high),
+        deviation_by_line_mm: answer.linear.standard_deviation,
+        linear_is_enough: answer.verdict.linear_is_enough,
+    }
+}
+
+fn places(run: &UncertainRun, samples: &Samples) -> Vec<BandPlace> {
+    let each = run.columns();
+    let of_column = |column: usize| -> [f64; 3] {
+        let mut values = samples.column(column);
+        values.retain(|x| x.is_finite());
+        values.sort_unstable_by(f64::total_cmp);
+        BAND.map(|share| quantile(&values, share).value)
+    };
+    let place = |(i, place): (usize, &kinetostat_machining::ProgramPlace)| BandPlace {
+        line: place.line,
+        path_mm: place.path_mm,
+        before_mm: of_column(each * (i + 1)),
+        after_mm: (each > 1).then(|| of_column(each * (i + 1) + 1)),
+    };
+    run.places().iter().enumerate().map(place).collect()
 }

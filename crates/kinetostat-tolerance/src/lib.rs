@@ -26,8 +26,6 @@
 //! ```
 
 mod along_program;
-mod band;
-mod distribution;
 mod draws;
 mod file;
 mod linear;
@@ -37,10 +35,8 @@ mod statistics;
 mod study;
 mod uncertain;
 
-pub use along_program::{CuttingParts, UncertainRun};
-pub use band::band;
-pub use distribution::Distribution;
-pub use draws::{Draws, MOST_DRAWS, REPLICATES};
+pub use along_program::{CuttingParts, UncertainRun, band};
+pub use draws::{Distribution, Draws, MOST_DRAWS, REPLICATES};
 pub use file::{CUTTING_PARTS, SharedNumber, Source, UncertaintyFile};
 pub use linear::{ENOUGH, Linear, NOTHING, linear, linear_points, nonlinearity};
 pub use machine::{DependsOnMachine, Quantity, Room, TaskError, UncertainMachine};
@@ -48,8 +44,8 @@ pub use statistics::{
     CONFIDENCE, Estimate, Quantile, SHARES, Summary, mean_and_deviation, quantile,
 };
 pub use study::{
-    Failures, MOST_NUMBERS, OutputAnswer, Samples, TooManyNumbers, Verdict, answers, can_be_kept,
-    linearised, monte_carlo, sample, sobol,
+    Failures, MOST_MISSING, MOST_NUMBERS, OutputAnswer, Samples, SobolIndex, TooManyNumbers,
+    Verdict, answers, can_be_kept, design_row, design_rows, linearised, monte_carlo, sample, sobol,
+    sobol_indices,
 };
-pub use study::{MOST_MISSING, SobolIndex, design_row, design_rows, sobol_indices};
 pub use uncertain::{Contradiction, Uncertain, Uncertainties};

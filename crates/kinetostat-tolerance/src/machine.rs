@@ -1,6 +1,6 @@
 //! A machine as a function of its uncertain numbers: built as drawn by chance, commanded as the drawing says.
 
-use kinetostat::batch::{Batch, BatchEquilibrium, Commanded, Details};
+use kinetostat::batch::{Batch, BatchEquilibrium, Commanded, Details, LoadedBatch};
 use kinetostat::compensation::target_under_load_following;
 use kinetostat::nalgebra::{Matrix6, Matrix6x3, Vector3};
 use kinetostat::{Directions, Mechanism, Pose, Wrench};
@@ -331,7 +331,8 @@ impl UncertainMachine {
                 (&mut self.compensated, &[Quantity::Compensated], loaded),
             ] {
                 if quantities.iter().any(|q| self.quantities.contains(q)) {
-                    let [more, less] = both.map(|(batch, loads)| (batch, &loads[..]));
+                    let [more, less] =
+                        both.map(|(batch, wrenches)| LoadedBatch { batch, wrenches });
                     places.go_along(more, less, 2.0 * step)?;
                 }
             }

@@ -3,8 +3,7 @@
 use kinetostat_machining::UncertainNumber;
 use nalgebra::DMatrix;
 
-use crate::distribution::{Distribution, score, share};
-use crate::draws::Draws;
+use crate::draws::{Distribution, Draws, score, share};
 
 /// A number that is not exactly what the drawing states.
 #[derive(Clone, Debug, PartialEq)]

@@ -90,8 +90,6 @@
 //! starts go to all threads. `simd`: the kernels of [`batch`] for vector registers, chosen at run time. The numbers are
 //! the same without the last two.
 
-pub use nalgebra;
-
 pub mod batch;
 pub mod chain;
 pub mod compensation;
@@ -115,8 +113,7 @@ pub use chain::problem::{ChainProblem, EndCondition, Prescribed};
 pub use chain::stiffness::{ChainStiffness, unloaded_stiffness};
 pub use compensation::target::{Compensation, compensate};
 pub use continuation::follow::follow;
-pub use continuation::parameter::Parameter;
-pub use continuation::settings::CurveSettings;
+pub use continuation::settings::{CurveSettings, Parameter};
 pub use equilibrium::all_of_chain::equilibria;
 pub use equilibrium::chain::solve_chain;
 pub use equilibrium::critical::critical_load_factor;
@@ -137,6 +134,7 @@ pub use model::loads::platform::PlatformLoad;
 pub use model::loads::strut::Anchor;
 pub use model::mechanism::{Limb, Mechanism, Platform};
 pub use model::mechanism_builder::MechanismBuilder;
+pub use nalgebra;
 pub use settings::Settings;
 pub use spatial::{CartesianStiffness, Directions, MotionKind, Pose, Twist, Wrench};
 

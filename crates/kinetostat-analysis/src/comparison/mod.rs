@@ -5,7 +5,6 @@
 //! compares the stiffnesses too.
 
 mod fit;
-mod mapping;
 
 use kinetostat::spatial::{shift_matrix, turn_matrix};
 use kinetostat::{Mechanism, MotionKind, Pose, PostureRequest, UnloadedStiffness};
@@ -14,7 +13,7 @@ use nalgebra::Matrix6;
 use crate::comparison::fit::Fit;
 use crate::forward::ForwardKinematics;
 
-pub use mapping::Mapping;
+pub use fit::Mapping;
 
 /// Below this share of the machine's size two models are the same.
 const SAME: f64 = 1e-7;

@@ -6,10 +6,10 @@
 
 mod controller_coordinates;
 mod explanation;
-mod measurement;
 mod search;
 
 pub use controller_coordinates::{ControllerCoordinates, ControllerPoseError};
-pub use explanation::{Axis, Coupling, Explanation, Forward, Frame};
-pub use measurement::{Difference, MeasuredPose, Tolerance, difference};
+pub use explanation::{
+    Axis, Coupling, Difference, Explanation, Forward, Frame, MeasuredPose, Tolerance, difference,
+};
 pub use search::{Effort, Explained, explain, remaining_differences};

@@ -6,8 +6,10 @@ use kinetostat::spatial::pose_residual;
 use kinetostat_machining::{nearest_rotation, rigid_motion};
 use nalgebra::{DMatrix, DVector, Matrix3, UnitQuaternion, Vector3};
 
-use crate::measured_poses::explanation::{Axis, Coupling, Explanation, Forward, Frame, quarter};
-use crate::measured_poses::measurement::{Difference, MeasuredPose, Tolerance, difference};
+use crate::measured_poses::explanation::{
+    Axis, Coupling, Difference, Explanation, Forward, Frame, MeasuredPose, Tolerance, difference,
+    quarter,
+};
 
 /// The search's answer.
 #[derive(Clone, Debug, Default)]

@@ -7,7 +7,7 @@ use kinetostat_machining::natural_length;
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 
-use crate::reach::error::ReachError;
+use crate::reach::arm::ReachError;
 
 /// Reach of the tool from home by inverse kinematics, within the limits of the actuators.
 #[derive(Clone, Debug, PartialEq)]

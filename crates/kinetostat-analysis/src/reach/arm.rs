@@ -1,13 +1,9 @@
 //! The reach of an arm: one joint after the other, from evenly spread starts.
 
+use kinetostat::model::{Drive, Element, Role};
 use kinetostat::number::larger;
-use kinetostat::{
-    Limb, Mechanism, MotionKind, Pose,
-    model::{Drive, Element, Role},
-};
+use kinetostat::{Limb, Mechanism, MotionKind, Pose};
 use nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
-
-use crate::reach::error::ReachError;
 
 /// Reach of an arm: the largest distances found by a search over the ranges of its joints. A joint without limits makes
 /// one turn.
@@ -194,7 +190,8 @@ fn farthest(limb: &Limb, joints: &[Joint], value: &dyn Fn(&[f64], &[f64]) -> f64
                     coordinates[joint.index]
                 };
                 let mut f = |x: f64| at(joint, x, &mut commands, &mut coordinates);
-                let found = largest_in_range(joint.range, here, &mut f);
+                let (low, high) = joint.range;
+                let found = largest_in_range(low, high, here, &mut f);
                 reached = f(found);
             }
             if reached <= before * (1.0 + 1e-10) || steps > MOST_STEPS {
@@ -210,7 +207,7 @@ fn farthest(limb: &Limb, joints: &[Joint], value: &dyn Fn(&[f64], &[f64]) -> f64
 const VALUES: usize = 98;
 
 /// Maximises a smooth function over a range: samples, then a ternary search around the best one.
-fn largest_in_range((low, high): (f64, f64), here: f64, f: &mut dyn FnMut(f64) -> f64) -> f64 {
+fn largest_in_range(low: f64, high: f64, here: f64, f: &mut dyn FnMut(f64) -> f64) -> f64 {
     const SAMPLES: usize = 12;
     let step = (high - low) / SAMPLES as f64;
     let mut best = (here, f(here));
@@ -233,4 +230,40 @@ fn largest_in_range((low, high): (f64, f64), here: f64, f: &mut dyn FnMut(f64) -
         }
     }
     best.0
+}
+
+/// Reason why there is no reach.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReachError {
+    /// The search would take too long.
+    #[error("not searched: the machine has more than {most} limbs")]
+    TooManyLimbs {
+        /// Limbs of the largest machine that is searched.
+        most: usize,
+    },
+    /// An actuator slides without limits.
+    #[error("not bounded: the actuator '{actuator}' slides without limits")]
+    UnlimitedActuator {
+        /// Name of the actuator.
+        actuator: String,
+    },
+    /// A passive joint slides without limits.
+    #[error("not bounded: the passive joint '{joint}' slides without limits")]
+    UnlimitedPassiveJoint {
+        /// Name of the joint.
+        joint: String,
+    },
+    /// The machine is outside its limits where the search would begin.
+    #[error("not searched: at home the actuator '{actuator}' is outside its limits")]
+    HomeOutsideLimits {
+        /// Name of the actuator.
+        actuator: String,
+    },
+    /// No actuator has limits, and the tool goes on and on.
+    #[error("not bounded: the actuators have no limits")]
+    NoLimits,
+    /// The loops do not close at home.
+    #[error("not searched: the loops do not close at home")]
+    OpenLoops,
 }

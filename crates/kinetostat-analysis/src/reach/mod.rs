@@ -5,14 +5,11 @@
 
 mod along_axes;
 mod arm;
-mod error;
 
 use kinetostat::Posture;
 
-pub use along_axes::{CommandReach, reach_by_commands};
-pub use along_axes::{ReachAlongAxes, ReachEnd};
-pub use arm::ArmReach;
-pub use error::ReachError;
+pub use along_axes::{CommandReach, ReachAlongAxes, ReachEnd, reach_by_commands};
+pub use arm::{ArmReach, ReachError};
 
 /// Machines of more limbs take too long.
 const MOST_LIMBS: usize = 24;

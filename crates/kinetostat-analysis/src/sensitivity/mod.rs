@@ -19,9 +19,6 @@
 //! of the softest direction. Where two of them are equal, a number that changes one and not the other changes the figure in another way
 //! to each side, as `|x|` at zero. The difference of the two slopes is what `(f(h) + f(-h) - 2 f(0)) / h` tends to for small steps.
 
-mod differences;
-mod error;
-mod place;
 mod values;
 
 use kinetostat::machine::{LinearisedMachine, MachineResidual, MechanismState};
@@ -31,11 +28,10 @@ use kinetostat_model::{Model, Parameter, ParametricModel};
 use nalgebra::{Matrix6, Vector6};
 use rayon::prelude::*;
 
-use crate::sensitivity::differences::{STEPS, WEIGHTS, step_of};
+use crate::sensitivity::values::{STEPS, WEIGHTS, step_of};
 
-pub use self::error::SensitivityError;
-pub use self::place::CommandedPlace;
 pub use self::values::Values;
+pub use crate::sensitivity::values::{CommandedPlace, SensitivityError};
 
 /// Definition of a sensitivity analysis.
 #[derive(Clone, Debug)]

@@ -1,7 +1,11 @@
-//! Figures that are differentiated.
+//! Figures that are differentiated, and steps and weights of central differences.
 
 use kinetostat::number::larger;
-use kinetostat::{MechanismEquilibrium, Wrench};
+use kinetostat::{
+    Error, Mechanism, MechanismEquilibrium, Pose, Posture, PostureRequest, Result, Wrench,
+};
+use kinetostat_model::{ModelError, Parameter, ParameterKind};
+use nalgebra::{UnitQuaternion, Vector3};
 
 /// Relative rounding error of the differentiated figures.
 const RELATIVE_ROUNDING: f64 = 1e-9;
@@ -87,6 +91,74 @@ impl Values {
                 other.stiffness_against_force,
             ),
             share_to_buckling: pair.map(|(a, b)| with(a, b)),
+        }
+    }
+}
+
+/// Shares of the largest step.
+pub(crate) const STEPS: [f64; 3] = [1.0, 0.5, 0.25];
+/// Weights of central differences with these steps in the derivative of sixth order.
+pub(crate) const WEIGHTS: [f64; 3] = [1.0 / 45.0, -20.0 / 45.0, 64.0 / 45.0];
+
+/// A step that is small beside what the number does, in its unit.
+pub(crate) fn step_of(parameter: &Parameter) -> f64 {
+    let least = match parameter.kind {
+        ParameterKind::Length => 1e-3,
+        ParameterKind::Angle | ParameterKind::Direction => 4e-3,
+        ParameterKind::Mass | ParameterKind::Inertia | ParameterKind::Acceleration => 1e-2,
+        ParameterKind::Force | ParameterKind::Moment => 1.0,
+        ParameterKind::Ratio | ParameterKind::PoissonsRatio | ParameterKind::Factor => 1e-3,
+        _ => 0.0,
+    };
+    let least = least / parameter.in_si;
+    let step = (4e-3 * parameter.value.abs()).max(least);
+    // An entry of a matrix that is zero: as one of its unit.
+    if step > 0.0 { step } else { 1.0 }
+}
+
+/// Reason why there are no derivatives at all.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SensitivityError {
+    /// No equilibrium.
+    #[error(transparent)]
+    Machine(#[from] Error),
+    /// A path names nothing.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// Another posture has the same commands.
+    #[error(
+        "the commands of this posture lead to another pose of the tool; take a posture that its commands alone determine"
+    )]
+    Elsewhere,
+}
+
+/// A place that a changed machine is commanded for again.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub enum CommandedPlace {
+    /// A pose of the tool, base from tool.
+    Pose(Pose),
+    /// A position (m) whose orientation follows, nearest to this one.
+    Position(Vector3<f64>, UnitQuaternion<f64>),
+    /// Commands, m or rad.
+    Commands(Vec<f64>),
+}
+
+impl CommandedPlace {
+    /// The machine commanded for it, next to a posture where there is one.
+    ///
+    /// # Errors
+    /// As [`Mechanism::posture`].
+    pub fn posture(&self, machine: &Mechanism, near: Option<&Posture>) -> Result<Posture> {
+        let request = match self {
+            Self::Pose(pose) => PostureRequest::pose(pose),
+            Self::Position(position, wanted) => PostureRequest::position(position, wanted),
+            Self::Commands(commands) => PostureRequest::commands(commands),
+        };
+        match near {
+            Some(near) => machine.posture(request.near(near)),
+            None => machine.posture(request),
         }
     }
 }

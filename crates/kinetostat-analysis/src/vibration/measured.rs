@@ -56,7 +56,7 @@ impl MeasuredModes {
         responses: &[MeasuredResponse],
         axes: &[usize],
         modes: usize,
-        band_hz: (f64, f64),
+        band_hz: [f64; 2],
     ) -> Result<Self, ChatterError> {
         let force = |r: &MeasuredResponse| (r.reference_node, r.reference_direction.unsigned_abs());
         let along = |axis: &usize| {

@@ -12,8 +12,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::cut::coefficients::Coefficients;
-use crate::cut::directional;
-use crate::cut::piece::{Active, End, Piece};
+use crate::cut::piece::{Active, End, Piece, directional_integral};
 use crate::error::{ChatterError, ChatterErrorKind, Result, above};
 use crate::number::wrapped;
 
@@ -114,8 +113,8 @@ impl MillingCut {
 
     /// Mean of the directional matrix over the turn, N/m^2: `(N/2 pi) int D dphi`; the helix does not change it.
     pub(crate) fn mean(&self) -> Matrix3<f64> {
-        let upper = directional::integral(&self.coefficients, self.arc.exit());
-        (upper - directional::integral(&self.coefficients, self.arc.entry())) * self.teeth as f64
+        let upper = directional_integral(&self.coefficients, self.arc.exit());
+        (upper - directional_integral(&self.coefficients, self.arc.entry())) * self.teeth as f64
             / TAU
     }
 

@@ -4,16 +4,12 @@
 //! piece by piece. Straight or helical edges of a cylinder, even pitch, a force that is linear in the chip.
 
 mod coefficients;
-mod directional;
 mod milling;
 mod piece;
 mod process;
 
 pub use coefficients::{Coefficients, Linearised};
-pub use milling::MillingCut;
-pub use milling::{Arc, Milled};
-pub use process::Cut;
-pub use process::TurningCut;
-pub(crate) use process::{checked_depth, checked_speed};
-
+pub use milling::{Arc, Milled, MillingCut};
 pub(crate) use piece::Piece;
+pub use process::{Cut, TurningCut};
+pub(crate) use process::{checked_depth, checked_speed};

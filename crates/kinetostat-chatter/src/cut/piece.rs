@@ -1,9 +1,8 @@
-//! A stretch of the turn on which the same parts of the same teeth are in the material.
+//! A stretch of the turn on which the same parts of the same teeth are in the material, and the directional matrix of one tooth.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::cut::coefficients::Coefficients;
-use crate::cut::directional;
 
 /// An end of the stretch of one edge in the material, as an angle of its places.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,10 +57,10 @@ impl Piece {
         let mut sum = Matrix3::zeros();
         for active in &self.active {
             sum += match *active {
-                Active::Edge(offset) => directional::at(coefficients, turn + offset),
+                Active::Edge(offset) => directional_matrix(coefficients, turn + offset),
                 Active::Swept { from, to, per_lag } => {
-                    let upper = directional::integral(coefficients, to.at(turn));
-                    (upper - directional::integral(coefficients, from.at(turn))) * per_lag
+                    let upper = directional_integral(coefficients, to.at(turn));
+                    (upper - directional_integral(coefficients, from.at(turn))) * per_lag
                 }
                 Active::Constant(matrix) => matrix,
             };
@@ -76,4 +75,52 @@ impl Piece {
             _ => None,
         }
     }
+}
+
+/// `D = -(Kt t + Kr n - Ka z) n^T` with `n = (sin, cos, 0)`, `t = (cos, -sin, 0)`, N/m^2: [D 8] with the axial sign of
+/// `cutting.md`.
+pub(crate) fn directional_matrix(coefficients: &Coefficients, angle: f64) -> Matrix3<f64> {
+    force_direction(coefficients, angle) * normal(angle).transpose()
+}
+
+/// Force on the tool for a chip of one metre, per depth: `-(Kt t + Kr n - Ka z)`, N/m^2.
+pub(crate) fn force_direction(coefficients: &Coefficients, angle: f64) -> Vector3<f64> {
+    let (s, c) = angle.sin_cos();
+    let (kt, kr, ka) = (
+        coefficients.tangential(),
+        coefficients.radial(),
+        coefficients.axial(),
+    );
+    Vector3::new(-kt * c - kr * s, kt * s - kr * c, ka)
+}
+
+/// Outward normal at an angle.
+pub(crate) fn normal(angle: f64) -> Vector3<f64> {
+    let (s, c) = angle.sin_cos();
+    Vector3::new(s, c, 0.0)
+}
+
+/// Integral of [`directional_matrix`] from 0 to an angle, N/m^2 rad.
+pub(crate) fn directional_integral(coefficients: &Coefficients, angle: f64) -> Matrix3<f64> {
+    let (s, c) = angle.sin_cos();
+    let (kt, kr, ka) = (
+        coefficients.tangential(),
+        coefficients.radial(),
+        coefficients.axial(),
+    );
+    let ss = 0.5 * (angle - s * c); // integral of sin^2
+    let cc = 0.5 * (angle + s * c); // integral of cos^2
+    let sc = 0.5 * s * s; // integral of sin cos
+    let (int_s, int_c) = (1.0 - c, s);
+    Matrix3::new(
+        -(kt * sc + kr * ss),
+        -(kt * cc + kr * sc),
+        0.0,
+        kt * ss - kr * sc,
+        kt * sc - kr * cc,
+        0.0,
+        ka * int_s,
+        ka * int_c,
+        0.0,
+    )
 }

@@ -4,9 +4,8 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::cut::directional;
 use crate::cut::milling::MillingCut;
-use crate::cut::piece::{Active, Piece};
+use crate::cut::piece::{Active, Piece, force_direction, normal};
 use crate::error::{ChatterError, ChatterErrorKind, Result, above};
 use crate::number::larger;
 
@@ -119,8 +118,8 @@ impl Cut {
             Self::Milling(cut) => match piece.single_edge() {
                 Some(offset) => {
                     let angle = turn + offset;
-                    let force = directional::force_direction(cut.coefficients(), angle);
-                    vec![(force, directional::normal(angle))]
+                    let force = force_direction(cut.coefficients(), angle);
+                    vec![(force, normal(angle))]
                 }
                 None => {
                     let matrix = piece.matrix(cut.coefficients(), turn);

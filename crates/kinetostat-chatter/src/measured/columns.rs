@@ -3,8 +3,7 @@
 use nalgebra::Complex;
 
 use crate::error::{ChatterError, ChatterErrorKind, Result};
-use crate::measured::quantity::Motion;
-use crate::measured::response::MeasuredResponse;
+use crate::measured::response::{MeasuredResponse, Motion};
 
 /// Units at the end of a column's name, with motion and size in SI.
 const UNITS: [(&str, Motion, f64); 8] = [

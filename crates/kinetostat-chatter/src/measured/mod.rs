@@ -1,21 +1,18 @@
 //! Measured responses: read, fitted, compared with a model, and what of a model's parameters they tell.
 //!
 //! `response` is one measured curve; `universal` and `columns` read files of it; `fit` finds modes by rational
-//! fraction polynomials; `compare` pairs them with a model's; `scaling` scales parameters of a model to them.
+//! fraction polynomials; `scaling` pairs them with a model's, and scales parameters of the model to them.
 
 mod columns;
-mod compare;
 mod fit;
-mod quantity;
-mod rational;
 mod response;
 mod scaling;
 mod universal;
 
 pub use columns::{read_columns, turning_columns};
-pub use compare::{ModePair, ShapedMode, modal_assurance, pair_modes};
 pub use fit::{Fit, FittedMode, fit_modes};
-pub use quantity::Motion;
-pub use response::MeasuredResponse;
-pub use scaling::{Parameter, Scaled, scale_parameters};
+pub use response::{MeasuredResponse, Motion};
+pub use scaling::{
+    ModePair, Parameter, Scaled, ShapedMode, modal_assurance, pair_modes, scale_parameters,
+};
 pub use universal::{UniversalFile, read_universal};

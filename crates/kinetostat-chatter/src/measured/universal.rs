@@ -6,8 +6,9 @@
 use nalgebra::Complex;
 
 use crate::error::{ChatterError, ChatterErrorKind, Result};
-use crate::measured::quantity::{Motion, force_unit, frequency_unit, motion_unit, response_unit};
-use crate::measured::response::MeasuredResponse;
+use crate::measured::response::{
+    MeasuredResponse, Motion, force_unit, frequency_unit, motion_unit, response_unit,
+};
 
 /// Contents of a universal file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,8 +19,13 @@ pub struct UniversalFile {
     pub left_out: Vec<String>,
 }
 
-/// A line of the file with its number, from 1.
-type Line<'a> = (usize, &'a str);
+/// A line of the file.
+#[derive(Clone, Copy)]
+struct Line<'a> {
+    /// Number, from 1.
+    number: usize,
+    text: &'a str,
+}
 
 fn fault(line: usize, quantity: &str, found: impl ToString, expected: &str) -> ChatterError {
     ChatterError::new(ChatterErrorKind::File, quantity, found, expected).at_line(line)
@@ -58,12 +64,12 @@ pub fn read_universal(text: &str) -> Result<UniversalFile> {
         };
         let mut body: Vec<Line<'_>> = Vec::new();
         let mut closed = false;
-        for (i, line) in lines.by_ref() {
-            if line.trim() == "-1" {
+        for (number, text) in lines.by_ref() {
+            if text.trim() == "-1" {
                 closed = true;
                 break;
             }
-            body.push((i, line));
+            body.push(Line { number, text });
         }
         if !closed {
             return Err(fault(
@@ -100,13 +106,13 @@ pub fn read_universal(text: &str) -> Result<UniversalFile> {
 
 /// Factors of length and force by which numbers of the file are divided for SI.
 fn unit_factors(body: &[Line<'_>], at: usize) -> Result<[f64; 2]> {
-    let &(line, text) = body
+    let &Line { number, text } = body
         .get(1)
         .ok_or_else(|| fault(at, "data set 164", "too short", "units and their factors"))?;
     let numbers = numbers(text, 25).filter(|n| n.len() >= 2 && n[0] > 0.0 && n[1] > 0.0);
     let numbers = numbers.ok_or_else(|| {
         let expected = "positive factors of length and force";
-        fault(line, "units", text.trim(), expected)
+        fault(number, "units", text.trim(), expected)
     })?;
     Ok([numbers[0], numbers[1]])
 }
@@ -118,11 +124,11 @@ fn column(text: &str, from: usize, to: usize) -> &str {
 }
 
 fn integer(line: Line<'_>, from: usize, to: usize, quantity: &str) -> Result<i64> {
-    match column(line.1, from, to) {
+    match column(line.text, from, to) {
         "" => Ok(0),
         field => field
             .parse()
-            .map_err(|_| fault(line.0, quantity, field, "a whole number in its column")),
+            .map_err(|_| fault(line.number, quantity, field, "a whole number in its column")),
     }
 }
 
@@ -154,7 +160,7 @@ fn stated_unit(text: &str) -> Option<&str> {
 fn axis<'a>(body: &[Line<'a>], record: usize) -> Result<(i64, Line<'a>, &'a str)> {
     let line = body[record];
     let kind = integer(line, 0, 10, "kind of an axis")?;
-    Ok((kind, line, column(line.1, 47, 67)))
+    Ok((kind, line, column(line.text, 47, 67)))
 }
 
 /// A function; in words what it is, where it is no frequency response.
@@ -179,21 +185,31 @@ fn function(
             "function of type {kind}, no frequency response (4)"
         )));
     }
-    let form = numbers(body[6].1, 10).filter(|form| form.len() >= 5);
+    let form = numbers(body[6].text, 10).filter(|form| form.len() >= 5);
     let form = form.ok_or_else(|| {
         let expected = "data type, number of points, spacing, first abscissa and its step";
-        fault(body[6].0, "form of the numbers", body[6].1.trim(), expected)
+        fault(
+            body[6].number,
+            "form of the numbers",
+            body[6].text.trim(),
+            expected,
+        )
     })?;
     let (frequencies_hz, raw) = points(body, &form)?;
     let (abscissa, line, per) = axis(body, 7)?;
     if !matches!(abscissa, 0 | 1 | 18) {
-        return Err(fault(line.0, "abscissa", abscissa, "18, a frequency, Hz"));
+        return Err(fault(
+            line.number,
+            "abscissa",
+            abscissa,
+            "18, a frequency, Hz",
+        ));
     }
     let hertz = match stated_unit(per) {
         None => 1.0,
         Some(unit) => frequency_unit(unit).ok_or_else(|| {
             fault(
-                line.0,
+                line.number,
                 "unit of the abscissa",
                 unit,
                 "Hz, kHz, rad/s or rpm",
@@ -202,7 +218,7 @@ fn function(
     };
     let (motion, size, stated) = unit(body, units)?;
     let direction = |from, to| -> Result<i32> { Ok(integer(place, from, to, "direction")? as i32) };
-    let name = [body[0].1, body[1].1].map(str::trim);
+    let name = [body[0].text, body[1].text].map(str::trim);
     let response = MeasuredResponse {
         name: name[0].to_owned(),
         response_node: integer(place, 41, 51, "node of the response")?,
@@ -214,7 +230,7 @@ fn function(
         values: raw.into_iter().map(|value| value * size).collect(),
         units_stated: stated,
     };
-    response.checked(body[6].0).map(Ok)
+    response.checked(body[6].number).map(Ok)
 }
 
 /// Motion per force, the size of its unit in SI, and true if the file states it.
@@ -228,12 +244,12 @@ fn unit(body: &[Line<'_>], units: Option<[f64; 2]>) -> Result<(Motion, f64, bool
         0 | 1 => None,
         other => {
             let expected = "8, 11 or 12: displacement, velocity or acceleration";
-            return Err(fault(line.0, "ordinate", other, expected));
+            return Err(fault(line.number, "ordinate", other, expected));
         }
     };
     if !matches!(denominator, 0 | 1 | 9 | 13) {
         return Err(fault(
-            below.0,
+            below.number,
             "denominator",
             denominator,
             "9 or 13, a force",
@@ -246,27 +262,32 @@ fn unit(body: &[Line<'_>], units: Option<[f64; 2]>) -> Result<(Motion, f64, bool
         (None, Some(unit)) => Some(motion_unit(unit).ok_or_else(|| {
             let expected =
                 "m, cm, mm, um, in or ft, these by s or s^2, g, or one of these by N, kN or lbf";
-            fault(line.0, "unit of the ordinate", unit, expected)
+            fault(line.number, "unit of the ordinate", unit, expected)
         })?),
         (None, None) => None,
     };
-    let force = match stated_unit(by) {
-        _ if whole.is_some() => Some(1.0),
-        Some(unit) => Some(
-            force_unit(unit)
-                .ok_or_else(|| fault(below.0, "unit of the force", unit, "N, mN, kN or lbf"))?,
-        ),
-        None => None,
-    };
+    let force =
+        match stated_unit(by) {
+            _ if whole.is_some() => Some(1.0),
+            Some(unit) => Some(force_unit(unit).ok_or_else(|| {
+                fault(below.number, "unit of the force", unit, "N, mN, kN or lbf")
+            })?),
+            None => None,
+        };
     if let (Some(motion), Some((other, _))) = (motion, written)
         && motion != other
     {
         let expected = "the unit of the kind that the same line states";
-        return Err(fault(line.0, "unit of the ordinate", moved, expected));
+        return Err(fault(line.number, "unit of the ordinate", moved, expected));
     }
     let Some(motion) = motion.or(written.map(|w| w.0)) else {
         let expected = "its kind (8, 11, 12) or its unit (m, m/s, m/s^2, mm, g, ...)";
-        return Err(fault(line.0, "ordinate", "neither kind nor unit", expected));
+        return Err(fault(
+            line.number,
+            "ordinate",
+            "neither kind nor unit",
+            expected,
+        ));
     };
     Ok(match (written, force, units) {
         (Some((_, size)), Some(force), _) => (motion, size / force, true),
@@ -278,7 +299,7 @@ fn unit(body: &[Line<'_>], units: Option<[f64; 2]>) -> Result<(Motion, f64, bool
 
 /// Frequencies and numbers of a function.
 fn points(body: &[Line<'_>], form: &[f64]) -> Result<(Vec<f64>, Vec<Complex<f64>>)> {
-    let line = body[6].0;
+    let line = body[6].number;
     let (complex, double) = match form[0] as i64 {
         2 => (false, false),
         4 => (false, true),
@@ -305,14 +326,19 @@ fn points(body: &[Line<'_>], form: &[f64]) -> Result<(Vec<f64>, Vec<Complex<f64>
     let each = usize::from(!even) + 1 + usize::from(complex);
     let width = if double && even { 20 } else { 13 };
     let mut all = Vec::new();
-    for (i, text) in &body[11..] {
+    for &Line { number, text } in &body[11..] {
         if text.trim().is_empty() {
             continue;
         }
         let read = numbers(text, width).or_else(|| mixed(text, double, even, complex));
         let Some(read) = read else {
             let shown: String = text.chars().take(60).collect();
-            return Err(fault(*i, "numbers of a function", shown, "numbers alone"));
+            return Err(fault(
+                number,
+                "numbers of a function",
+                shown,
+                "numbers alone",
+            ));
         };
         all.extend(read);
     }

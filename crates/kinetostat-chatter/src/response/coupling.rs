@@ -110,7 +110,7 @@ impl Coupling {
 
     /// Restricts the coupling to some of the modes, with the directions that relax at most [`FASTEST`] times as fast as
     /// the fastest of these oscillates: others are springs.
-    pub(crate) fn of(&self, (modes, kept): (&[Mode], &[usize])) -> Option<Self> {
+    pub(crate) fn of(&self, modes: &[Mode], kept: &[usize]) -> Option<Self> {
         let fastest = modes.iter().map(Mode::angular_frequency).fold(0.0, larger);
         let before = self.rates.nrows() - self.held.len();
         let slow: Vec<usize> = (before..self.rates.nrows())

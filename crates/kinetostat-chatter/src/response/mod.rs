@@ -3,13 +3,10 @@
 //! Takes modal data at the cutting point; gives receptances in any frame. Sources: `dynamics.md` sections 3, 7 and 8.
 
 mod coupling;
-mod first_order;
 mod mode;
 mod tool;
 
-pub use mode::Mode;
-pub use tool::FeedFrame;
-pub use tool::ToolResponse;
-
 pub(crate) use coupling::Coupling;
-pub(crate) use first_order::first_order;
+pub use mode::Mode;
+pub(crate) use tool::first_order;
+pub use tool::{FeedFrame, ToolResponse};

@@ -2,12 +2,11 @@
 
 use crate::cut::{checked_depth, checked_speed};
 use crate::error::{ChatterError, ChatterErrorKind, Result};
-use crate::stability::along::Along;
-use crate::stability::krylov;
-use crate::stability::limits::SpeedStability;
+use crate::stability::eigenvalues::ROUGH;
+use crate::stability::multiplier::SpeedStability;
+use crate::stability::period::resolved_hz;
 use crate::stability::regeneration::{Regeneration, Selected};
-use crate::stability::resolution::resolved_hz;
-use crate::stability::scan::Search;
+use crate::stability::scan::{Along, Search};
 use crate::stability::swinging::Known;
 
 /// Share of the usual points of collocation at one look, and the logarithm of a multiplier from which it is unstable for certain.
@@ -32,7 +31,7 @@ impl Regeneration {
     /// # Errors
     /// A speed or a depth that is not positive, and modes too fast for the speed ([`crate::ToolResponse::with_modes_up_to`]).
     pub fn stability_at(&self, speed_rpm: f64, up_to: f64) -> Result<SpeedStability> {
-        self.stability_beyond(None, speed_rpm, (up_to, Search::All))
+        self.stability_beyond(None, speed_rpm, up_to, Search::All)
     }
 
     /// Continues [`Self::stability_at`] at the speed of `known`, a result for this cut up to a smaller depth: if it has
@@ -45,7 +44,7 @@ impl Regeneration {
         known: &SpeedStability,
         up_to: f64,
     ) -> Result<SpeedStability> {
-        self.stability_beyond(Some(known), known.speed_rpm, (up_to, Search::All))
+        self.stability_beyond(Some(known), known.speed_rpm, up_to, Search::All)
     }
 
     /// Finds the limit like [`Self::stability_at`] or, with a result for smaller depths, [`Self::stability_continued`]:
@@ -59,7 +58,7 @@ impl Regeneration {
         speed_rpm: f64,
         up_to: f64,
     ) -> Result<SpeedStability> {
-        self.stability_beyond(known, speed_rpm, (up_to, Search::First))
+        self.stability_beyond(known, speed_rpm, up_to, Search::First)
     }
 
     /// True if the cut is unstable at a spindle speed (rpm) and a depth (m), by one look at its largest multiplier. False where it
@@ -73,7 +72,7 @@ impl Regeneration {
         checked_depth(depth)?;
         let of = |regeneration: &Self| -> Result<bool> {
             let along = Along::new(regeneration, speed_rpm, LOOK)?;
-            Ok(along.logarithm(depth, krylov::ROUGH)? > CLEARLY)
+            Ok(along.logarithm(depth, ROUGH)? > CLEARLY)
         };
         let Some(Selected { selection, usual }) = self.selected() else {
             return of(self);
@@ -93,13 +92,14 @@ impl Regeneration {
         &self,
         known: Option<&SpeedStability>,
         speed_rpm: f64,
-        (up_to, search): (f64, Search),
+        up_to: f64,
+        search: Search,
     ) -> Result<SpeedStability> {
         checked_speed(speed_rpm)?;
         checked_depth(up_to)?;
         match self.selected() {
-            Some(selected) => self.stability_of(selected, known, speed_rpm, (up_to, search)),
-            None => self.stability_of_all(known, speed_rpm, (up_to, search)),
+            Some(selected) => self.stability_of(selected, known, speed_rpm, up_to, search),
+            None => self.stability_of_all(known, speed_rpm, up_to, search),
         }
     }
 
@@ -110,7 +110,8 @@ impl Regeneration {
         selected: &Selected,
         known: Option<&SpeedStability>,
         speed_rpm: f64,
-        (up_to, search): (f64, Search),
+        up_to: f64,
+        search: Search,
     ) -> Result<SpeedStability> {
         let Selected { selection, usual } = selected;
         let resolved = match selection.automatic {
@@ -120,10 +121,10 @@ impl Regeneration {
         let mut count = selection.count.min(resolved);
         loop {
             let found = match count == selection.count {
-                true => usual.stability_of_all(known, speed_rpm, (up_to, search))?,
+                true => usual.stability_of_all(known, speed_rpm, up_to, search)?,
                 false => self
                     .lowest(count)
-                    .stability_of_all(known, speed_rpm, (up_to, search))?,
+                    .stability_of_all(known, speed_rpm, up_to, search)?,
             };
             let reach = found.limit().map_or(up_to, |limit| limit.depth);
             let could = |mode: &Known| mode.alone < reach;

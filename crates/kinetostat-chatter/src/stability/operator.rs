@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use crate::error::{ChatterError, ChatterErrorKind, Result};
 use crate::number::Complex64;
-use crate::stability::krylov;
+use crate::stability::eigenvalues::largest;
 use crate::stability::period::Period;
 
 /// The monodromy operator of a period at a depth.
@@ -84,8 +84,8 @@ impl<'a> Operator<'a> {
         last: &mut Option<DVector<f64>>,
     ) -> Result<(Complex64, DVector<Complex64>)> {
         // With many modes, most decay.
-        let of = (self.size(), 2 * self.period.states.len());
-        krylov::largest(of, accuracy, last, |x| self.apply(x))
+        let states = 2 * self.period.states.len();
+        largest(self.size(), states, accuracy, last, |x| self.apply(x))
     }
 
     /// The operator as a matrix.

@@ -7,8 +7,7 @@ use crate::cut::{Cut, checked_depth, checked_speed};
 use crate::error::{ChatterError, ChatterErrorKind, Result};
 use crate::number::{Complex64, larger};
 use crate::response::{Mode, ToolResponse};
-use crate::stability::eigenvalues::eigenvalues;
-use crate::stability::krylov;
+use crate::stability::eigenvalues::{ACCURATE, eigenvalues};
 use crate::stability::multiplier::Multiplier;
 use crate::stability::operator::Operator;
 use crate::stability::period::Period;
@@ -215,7 +214,7 @@ impl Regeneration {
     pub fn multiplier_with(&self, speed_rpm: f64, depth: f64, fineness: f64) -> Result<Multiplier> {
         let period = self.period(speed_rpm, checked_depth(depth)?, fineness)?;
         let operator = Operator::new(&period, depth);
-        let (value, vector) = operator.largest(krylov::ACCURATE, &mut None)?;
+        let (value, vector) = operator.largest(ACCURATE, &mut None)?;
         Ok(Multiplier::new(value, &vector, &operator, depth, &|w| {
             self.at(w)
         }))
@@ -243,7 +242,8 @@ impl Regeneration {
         }
         let states = self.states.clone()?;
         Period::new(
-            (&self.response, states),
+            &self.response,
+            states,
             &self.cut,
             speed_rpm,
             depth,

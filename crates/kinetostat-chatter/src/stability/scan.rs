@@ -4,12 +4,17 @@
 //! unit circle, fine where it is near, so that islands (a stable stretch above an unstable one) are found. Every crossing is
 //! then closed in on.
 
+use std::cell::RefCell;
+
+use nalgebra::DVector;
+
 use crate::error::{ChatterError, ChatterErrorKind, Result};
 use crate::number::larger;
 use crate::response::Mode;
-use crate::stability::along::Along;
-use crate::stability::krylov;
-use crate::stability::limits::{Crossing, SpeedStability};
+use crate::stability::eigenvalues::{ACCURATE, ROUGH};
+use crate::stability::multiplier::{Crossing, Multiplier, SpeedStability};
+use crate::stability::operator::Operator;
+use crate::stability::period::Period;
 use crate::stability::regeneration::Regeneration;
 
 /// First steps of the scan, as the logarithm of a ratio of depths.
@@ -55,7 +60,8 @@ impl Regeneration {
         &self,
         known: Option<&SpeedStability>,
         speed_rpm: f64,
-        (up_to, search): (f64, Search),
+        up_to: f64,
+        search: Search,
     ) -> Result<SpeedStability> {
         let modes = self.response().modes().iter();
         let modes_up_to_hz = modes.map(Mode::frequency_hz).fold(0.0, larger);
@@ -124,14 +130,14 @@ impl Regeneration {
 fn followed(along: &Along<'_>, start: f64, slope: f64) -> Result<f64> {
     let mut last = Sample {
         at: start,
-        log: along.logarithm(start.exp(), krylov::ACCURATE)?,
+        log: along.logarithm(start.exp(), ACCURATE)?,
     };
     let mut at = start - last.log / slope;
     for _ in 0..6 {
         if (at - last.at).abs() < CLOSED {
             break;
         }
-        let log = along.logarithm(at.exp(), krylov::ACCURATE)?;
+        let log = along.logarithm(at.exp(), ACCURATE)?;
         let (before, now) = (last, Sample { at, log });
         last = now;
         let secant = now.log * (now.at - before.at) / (now.log - before.log);
@@ -152,7 +158,7 @@ fn changes(
     let sample = |at: f64| -> Result<Sample> {
         Ok(Sample {
             at,
-            log: along.logarithm(at.exp(), krylov::ROUGH)?,
+            log: along.logarithm(at.exp(), ROUGH)?,
         })
     };
     let finest = match search {
@@ -205,7 +211,7 @@ fn root(along: &Along<'_>, mut low: Sample, mut high: Sample) -> Result<f64> {
         if high.at - low.at < ROUGHLY_CLOSED {
             return Ok(at);
         }
-        let log = along.logarithm(at.exp(), krylov::ACCURATE)?;
+        let log = along.logarithm(at.exp(), ACCURATE)?;
         if log.abs() < 1e-9 {
             return Ok(at);
         }
@@ -224,4 +230,69 @@ fn root(along: &Along<'_>, mut low: Sample, mut high: Sample) -> Result<f64> {
         }
     }
     Ok(0.5 * (low.at + high.at))
+}
+
+/// The logarithm of the largest multiplier's size over that of the depth, at one speed.
+pub(crate) struct Along<'a> {
+    regeneration: &'a Regeneration,
+    pub(crate) speed_rpm: f64,
+    /// Share of the usual points of collocation.
+    pub(crate) fineness: f64,
+    /// The period, where it does not depend on the depth.
+    period: Option<Period>,
+    /// Start vector of the search for the largest multiplier, from the previous depth.
+    last: RefCell<Option<DVector<f64>>>,
+}
+
+impl<'a> Along<'a> {
+    pub(crate) fn new(
+        regeneration: &'a Regeneration,
+        speed_rpm: f64,
+        fineness: f64,
+    ) -> Result<Self> {
+        let period = match regeneration.cut().pieces_depend_on_depth() {
+            true => None,
+            false => Some(regeneration.period(speed_rpm, 0.0, fineness)?),
+        };
+        Ok(Self {
+            regeneration,
+            speed_rpm,
+            fineness,
+            period,
+            last: RefCell::new(None),
+        })
+    }
+
+    fn with<T>(&self, depth: f64, of: impl FnOnce(&Operator<'_>) -> Result<T>) -> Result<T> {
+        match &self.period {
+            Some(period) => of(&Operator::new(period, depth)),
+            None => {
+                let period = self
+                    .regeneration
+                    .period(self.speed_rpm, depth, self.fineness)?;
+                of(&Operator::new(&period, depth))
+            }
+        }
+    }
+
+    pub(crate) fn logarithm(&self, depth: f64, accuracy: f64) -> Result<f64> {
+        self.with(depth, |operator| {
+            let value = operator.largest(accuracy, &mut self.last.borrow_mut())?.0;
+            Ok(value.norm().ln())
+        })
+    }
+
+    pub(crate) fn multiplier(&self, depth: f64) -> Result<Multiplier> {
+        self.with(depth, |operator| {
+            let (value, vector) = operator.largest(ACCURATE, &mut self.last.borrow_mut())?;
+            let receptance = |w| self.regeneration.at(w);
+            Ok(Multiplier::new(
+                value,
+                &vector,
+                operator,
+                depth,
+                &receptance,
+            ))
+        })
+    }
 }

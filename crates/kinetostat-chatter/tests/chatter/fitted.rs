@@ -23,7 +23,7 @@ fn modes_of_exact_curves() {
     let curves: Vec<MeasuredResponse> = (0..3)
         .map(|i| MeasuredResponse::of_model(&arm, i, 1, &hz).unwrap())
         .collect();
-    let fit = fit_modes(&curves, 5, (4.0, 75.0)).unwrap();
+    let fit = fit_modes(&curves, 5, [4.0, 75.0]).unwrap();
     let mut modes = arm.modes().to_vec();
     modes.sort_by(|a, b| a.frequency_hz().total_cmp(&b.frequency_hz()));
     let (mut frequency, mut damping, mut constants) = (Worst::new(), Worst::new(), Worst::new());
@@ -68,7 +68,7 @@ fn modes_of_noisy_accelerances() {
             curve
         })
         .collect();
-    let fit = fit_modes(&curves, 5, (5.0, 70.0)).unwrap();
+    let fit = fit_modes(&curves, 5, [5.0, 70.0]).unwrap();
     let mut modes: Vec<&Mode> = arm.modes().iter().collect();
     modes.sort_by(|a, b| a.frequency_hz().total_cmp(&b.frequency_hz()));
     let mut worst = Worst::new();
@@ -93,12 +93,12 @@ fn fits_that_cannot_be_made_are_refused() {
             .unwrap_err()
             .quantity
     };
-    assert_eq!(ask(0, (10.0, 30.0)), "number of modes");
-    assert_eq!(ask(1, (30.0, 10.0)), "band");
-    assert_eq!(ask(1, (10.0, 11.0)), "band");
-    assert_eq!(ask(1, (10.0, 30.0)), "modes in the band");
+    assert_eq!(ask(0, [10.0, 30.0]), "number of modes");
+    assert_eq!(ask(1, [30.0, 10.0]), "band");
+    assert_eq!(ask(1, [10.0, 11.0]), "band");
+    assert_eq!(ask(1, [10.0, 30.0]), "modes in the band");
     assert_eq!(
-        fit_modes(&[], 1, (1.0, 2.0)).unwrap_err().quantity,
+        fit_modes(&[], 1, [1.0, 2.0]).unwrap_err().quantity,
         "responses"
     );
 }

@@ -56,7 +56,7 @@ pub(crate) fn answer(
     (query, machine, damping): (&PlaceQuery, &VibratingMachine, &Damping),
     responses: &[MeasuredResponse],
 ) -> Answer<FitAnswer> {
-    let band = (args.frequencies[0], args.frequencies[1]);
+    let band = [args.frequencies[0], args.frequencies[1]];
     let axes: Vec<usize> = args.from.iter().map(|axis| *axis as usize).collect();
     let measured = MeasuredModes::fitted(responses, &axes, modes, band).map_err(of_measurement)?;
     let ratios = match damping {

@@ -178,11 +178,17 @@ pub(crate) fn put_band(
 ) -> Answer<()> {
     let given = &machine.bounds.tools;
     let tools: Vec<_> = given.iter().map(|tool| (tool.number, tool.pose)).collect();
-    let places = (run.places.as_slice(), run.written.is_some());
-    let uncertain = UncertainRun::new(model, &tools, file, places, parts)?;
+    let is_written = run.written.is_some();
+    let uncertain = UncertainRun::new(model, &tools, file, &run.places, is_written, parts)?;
     let draws = Draws::new(uncertainty.machines, uncertainty.seed);
-    let named = (uncertainty.name.as_str(), uncertainty.seed);
-    let found = band(&uncertain, file, named, &draws, progress)?;
+    let found = band(
+        &uncertain,
+        file,
+        &uncertainty.name,
+        uncertainty.seed,
+        &draws,
+        progress,
+    )?;
     run.result.uncertainty = Some(found);
     Ok(())
 }

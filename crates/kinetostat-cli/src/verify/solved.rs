@@ -59,8 +59,9 @@ pub(crate) fn solved(
     let forces = forces_of(machine, original, read.path(), &progress)?;
     let aim = Aim::Compensate;
     let found = with_task(aim, machine, original, &read, forces.as_ref(), |task| {
-        let program = (other.path(), verified.program.as_slice());
-        in_threads(threads, || verify_program(task, program, &progress))
+        in_threads(threads, || {
+            verify_program(task, other.path(), &verified.program, &progress)
+        })
     })??;
     progress.finish();
     let both = Both {

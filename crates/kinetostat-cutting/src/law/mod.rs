@@ -4,12 +4,10 @@
 //! envelope and along the edge. `shared/theory/cutting.md`; [R 2.2-2.4] with their errata.
 
 mod correction;
-mod exponential;
 mod force_law;
 mod kienzle;
 mod linear;
 mod rational;
-mod worst_case;
 
 use std::sync::Arc;
 
@@ -19,12 +17,10 @@ use serde::{Deserialize, Serialize};
 use crate::error::Result;
 
 pub use correction::{Coolant, Corrected, Correction, CuttingMaterial, RakeReference};
-pub use exponential::Exponential;
 pub use force_law::{EdgeForce, ForceLaw};
-pub use kienzle::Kienzle;
-pub use linear::Linear;
+pub use kienzle::{Kienzle, force_as_printed, largest_force};
+pub use linear::{Exponential, Linear};
 pub use rational::Rational;
-pub use worst_case::{force_as_printed, largest_force};
 
 /// A law with its coefficients.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]

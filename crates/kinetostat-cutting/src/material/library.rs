@@ -3,9 +3,9 @@
 use std::sync::OnceLock;
 
 use crate::error::{CutError, CutErrorKind, Result};
-use crate::material::entry::Material;
+use crate::material::corrected::Material;
 use crate::material::text;
-use crate::names::{bare, nearest};
+use crate::source::{bare, nearest};
 
 const LIBRARY: &str = include_str!("library.toml");
 

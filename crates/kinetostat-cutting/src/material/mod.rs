@@ -5,10 +5,8 @@
 //! each number was read stands with it in `library.toml`.
 
 mod corrected;
-mod entry;
 mod library;
 mod text;
 
-pub use corrected::{Applied, AppliedFactor};
-pub use entry::{Group, Material, MeasuredIn, Process};
+pub use corrected::{Applied, AppliedFactor, Group, Material, MeasuredIn, Process};
 pub use library::Materials;

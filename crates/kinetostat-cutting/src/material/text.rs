@@ -8,9 +8,8 @@ use serde_spanned::Spanned;
 
 use crate::error::{CutError, CutErrorKind, Result, within};
 use crate::law::Law;
-use crate::material::entry::{Group, Material, MeasuredIn};
-use crate::names::{bare, nearest};
-use crate::source::{Source, described, found_and_expected};
+use crate::material::corrected::{Group, Material, MeasuredIn};
+use crate::source::{Source, bare, described, found_and_expected, nearest};
 
 const MOST_BYTES: usize = 10_000_000;
 const MOST_MATERIALS: usize = 10_000;

@@ -4,10 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{CutError, CutErrorKind, Result};
-use crate::measured::drift::{self, DriftModel};
-use crate::measured::integral::Integral;
+use crate::measured::cleaning;
+use crate::measured::cleaning::{DriftModel, Outlier};
+use crate::measured::correlation::Integral;
 use crate::measured::log::{CHANNELS, ForceLog};
-use crate::measured::outliers::{self, Outlier};
 use crate::measured::report::ConditioningReport;
 use crate::number::larger;
 
@@ -121,7 +121,7 @@ impl Conditioning {
             return refuse("window of the mean", found, expected);
         }
         let look =
-            self.outliers == OutlierTreatment::Replace && log.rows() >= outliers::FEWEST_ROWS;
+            self.outliers == OutlierTreatment::Replace && log.rows() >= cleaning::FEWEST_ROWS;
         let found = match look {
             true => found_in(log)?,
             false => Vec::new(),
@@ -133,7 +133,7 @@ impl Conditioning {
                 values[outlier.row - 1] = outlier.median;
             }
         }
-        let drift = drift::remove(&mut log, &self.air, self.drift)?;
+        let drift = cleaning::remove(&mut log, &self.air, self.drift)?;
         // These figures are those of the log itself: smoothing may add places between its rows.
         let (rows, spacing, longest_step) = (log.rows(), log.spacing(), longest_step(&log.at));
         if self.window > 0.0 {
@@ -165,7 +165,7 @@ impl Conditioning {
 fn found_in(log: &ForceLog) -> Result<Vec<Outlier>> {
     let mut all = Vec::new();
     for (name, values) in log.named() {
-        let own = outliers::of_channel(log, name, values);
+        let own = cleaning::of_channel(log, name, values);
         let most = larger(1.0, MOST_OUTLIERS * values.len() as f64);
         if own.len() as f64 > most {
             return Err(CutError::new(

@@ -1,7 +1,6 @@
 //! The correlation of a measured course with an expected one, at any shift between them.
 
-use crate::measured::activity::Activity;
-use crate::measured::integral::{Integral, of_square};
+use crate::error::{CutError, CutErrorKind, Result};
 
 /// Integrals of an expected course and of its square, up to each point.
 struct Sums<'a> {
@@ -123,5 +122,170 @@ pub(crate) fn coefficient(product: f64, a: f64, b: f64) -> f64 {
     match a > 0.0 && b > 0.0 {
         true => (product / (a.sqrt() * b.sqrt())).clamp(-1.0, 1.0),
         false => 0.0,
+    }
+}
+
+/// Integrals of a signal and of itself times the time, from its first row on. Two rows may have one time: the signal jumps.
+#[derive(Clone, Debug)]
+pub(crate) struct Integral<'a> {
+    at: &'a [f64],
+    values: &'a [f64],
+    /// Integral up to each row.
+    sum: Vec<f64>,
+    /// Integral of the signal times the time since the first row, up to each row; empty if not requested.
+    first_moment: Vec<f64>,
+}
+
+impl<'a> Integral<'a> {
+    /// Integrates a signal.
+    pub fn of(at: &'a [f64], values: &'a [f64]) -> Self {
+        let mut sum = Vec::with_capacity(at.len());
+        let mut total = 0.0;
+        for i in 0..at.len() {
+            if i > 0 {
+                total += 0.5 * (values[i - 1] + values[i]) * (at[i] - at[i - 1]);
+            }
+            sum.push(total);
+        }
+        let first_moment = Vec::new();
+        Self {
+            at,
+            values,
+            sum,
+            first_moment,
+        }
+    }
+
+    /// Integrates a signal, and its product with the time.
+    pub fn with_first_moment(at: &'a [f64], values: &'a [f64]) -> Self {
+        let mut own = Self::of(at, values);
+        let mut total = 0.0;
+        for i in 0..at.len() {
+            if i > 0 {
+                total += own.first_moment_in(i, at[i]);
+            }
+            own.first_moment.push(total);
+        }
+        own
+    }
+
+    /// Row after which a time lies, so that there is a next one; the times are those of at least two rows.
+    fn before(&self, at: f64) -> usize {
+        let after = self.at.partition_point(|place| *place <= at);
+        after.clamp(1, self.at.len() - 1) - 1
+    }
+
+    fn value_in(&self, i: usize, at: f64) -> f64 {
+        let (a, b) = (self.at[i - 1], self.at[i]);
+        match b > a {
+            true => self.values[i - 1] + (self.values[i] - self.values[i - 1]) * (at - a) / (b - a),
+            false => self.values[i],
+        }
+    }
+
+    /// Integral from row `i - 1` to a time before row `i`, of the signal times the time since the first row.
+    fn first_moment_in(&self, i: usize, at: f64) -> f64 {
+        let (a, b) = (self.at[i - 1] - self.at[0], at - self.at[0]);
+        let (x, y) = (self.values[i - 1], self.value_in(i, at));
+        (b - a) * (a * (2.0 * x + y) + b * (x + 2.0 * y)) / 6.0
+    }
+
+    /// The integral up to a time; beyond the ends the signal is zero.
+    pub fn to(&self, at: f64) -> f64 {
+        let at = at.clamp(self.at[0], self.at[self.at.len() - 1]);
+        self.to_after(self.before(at), at)
+    }
+
+    /// The integral up to a time between row `before` and the next.
+    pub fn to_after(&self, before: usize, at: f64) -> f64 {
+        let from = self.at[before];
+        let value = self.value_in(before + 1, at);
+        self.sum[before] + 0.5 * (self.values[before] + value) * (at - from)
+    }
+
+    /// The integral of the signal times the time since its first row, up to a time.
+    pub fn first_moment_to(&self, at: f64) -> f64 {
+        let at = at.clamp(self.at[0], self.at[self.at.len() - 1]);
+        let before = self.before(at);
+        self.first_moment[before] + self.first_moment_in(before + 1, at)
+    }
+}
+
+/// The integral of the square of a signal that is straight between its rows.
+pub(crate) fn of_square(at: &[f64], values: &[f64]) -> f64 {
+    let pieces = at.windows(2).zip(values.windows(2));
+    pieces
+        .map(|(t, v)| (t[1] - t[0]) * (v[0] * v[0] + v[0] * v[1] + v[1] * v[1]) / 3.0)
+        .sum()
+}
+
+/// An expected course: straight between points, zero before the first and behind the last; two points at one time are a jump.
+/// Only its shape counts, not its size.
+///
+/// ```
+/// use kinetostat_cutting::Activity;
+///
+/// // A cut of two seconds, a rapid of one, a cut of three.
+/// let expected = Activity::new(vec![[0.0, 1.0], [2.0, 1.0], [2.0, 0.0], [3.0, 0.0], [3.0, 1.0], [6.0, 1.0]])?;
+/// assert_eq!(expected.range(), [0.0, 6.0]);
+/// # Ok::<(), kinetostat_cutting::CutError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Activity {
+    pub(crate) at: Vec<f64>,
+    pub(crate) values: Vec<f64>,
+}
+
+impl Activity {
+    /// Through points of time (s) and expected size.
+    ///
+    /// # Errors
+    /// Fewer than two points, no time between first and last, times that go back, what is no number.
+    pub fn new(points: Vec<[f64; 2]>) -> Result<Self> {
+        let wrong = |found: String| {
+            let expected = "two points at least, in the order of time, with finite numbers";
+            Err(CutError::new(
+                CutErrorKind::Measurement,
+                "expected course",
+                found,
+                expected,
+            ))
+        };
+        if let Some(pair) = points.windows(2).find(|pair| pair[1][0] < pair[0][0]) {
+            return wrong(format!("{} s after {} s", pair[1][0], pair[0][0]));
+        }
+        if let Some(point) = points.iter().find(|p| !p.iter().all(|x| x.is_finite())) {
+            return wrong(format!("{point:?}"));
+        }
+        let (at, values): (Vec<f64>, Vec<f64>) = points.into_iter().map(|[t, v]| (t, v)).unzip();
+        match at.first() < at.last() {
+            true => Ok(Self { at, values }),
+            false => wrong(format!("{} points of one time", at.len())),
+        }
+    }
+
+    /// Time of the first point and of the last, s.
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
+        match self.at.as_slice() {
+            [first, .., last] => [*first, *last],
+            _ => [0.0; 2],
+        }
+    }
+
+    /// Points of it between two times, with zeros where it has none, as times and values.
+    pub(crate) fn between(&self, from: f64, to: f64) -> (Vec<f64>, Vec<f64>) {
+        let first = self.range()[0].clamp(from, to);
+        let mut points = vec![[from, 0.0], [first, 0.0]];
+        for (t, v) in self.at.windows(2).zip(self.values.windows(2)) {
+            let (a, b) = (t[0].clamp(from, to), t[1].clamp(from, to));
+            let value = |x: f64| v[0] + (v[1] - v[0]) * (x - t[0]) / (t[1] - t[0]);
+            if b > a {
+                points.extend([[a, value(a)], [b, value(b)]]);
+            }
+        }
+        let last = points[points.len() - 1][0];
+        points.extend([[last, 0.0], [to, 0.0]]);
+        points.into_iter().map(|[t, v]| (t, v)).unzip()
     }
 }

@@ -4,8 +4,7 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
 use crate::error::{CutError, CutErrorKind, Result};
-use crate::measured::activity::Activity;
-use crate::measured::correlation::{Correlation, coefficient};
+use crate::measured::correlation::{Activity, Correlation, coefficient};
 use crate::measured::log::{ForceLog, LoggedBy};
 use crate::number::larger;
 

@@ -9,21 +9,16 @@
 //! 2002 (Hampel filter); the shift, the usual cross-correlation with the coefficient of Pearson at every shift, by fast Fourier
 //! transform (`rustfft`); drift and mean, own work.
 
-mod activity;
+mod cleaning;
 mod conditioning;
 mod correlation;
-mod drift;
-mod integral;
 mod log;
 mod matching;
-mod outliers;
-mod read;
 mod report;
 
-pub use activity::Activity;
+pub use cleaning::{DriftModel, DriftRemoved, Outlier};
 pub use conditioning::{Conditioned, Conditioning, OutlierTreatment};
-pub use drift::{DriftModel, DriftRemoved};
+pub use correlation::Activity;
 pub use log::{ForceLog, LoggedBy};
 pub use matching::{ShiftMatch, match_shift};
-pub use outliers::Outlier;
 pub use report::ConditioningReport;

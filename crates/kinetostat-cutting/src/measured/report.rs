@@ -1,8 +1,7 @@
 //! Record of a log's conditioning, in words.
 
-use crate::measured::drift::DriftRemoved;
+use crate::measured::cleaning::{DriftRemoved, FEWEST_ROWS, Outlier, SIDE, SPREADS};
 use crate::measured::log::{CHANNELS, LoggedBy};
-use crate::measured::outliers::{FEWEST_ROWS, Outlier, SIDE, SPREADS};
 
 /// Record of a log's conditioning.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,4 +1,4 @@
-//! Thickness of the chip with run-out.
+//! Feed from tooth to tooth, and thickness of the chip with run-out.
 //!
 //! `h = min over m = 1..N of [m c sin phi + rho_j - rho_(j+m)] sin kappa`: a tooth cuts what the teeth before it have left, and
 //! a chip that one misses is cut by the next. With a feed down the axis, `c sin phi sin kappa` is `c sin phi sin kappa + d cos
@@ -6,7 +6,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::milling::feed::Feed;
+use crate::error::{CutErrorKind, Result, within};
 use crate::tool::{Meridian, Tool};
 
 /// One line of the least thickness: so many feeds, and by how much this tooth stands out from that one, mm.
@@ -154,5 +154,41 @@ fn least(all: &[Line]) -> (Vec<Line>, Vec<f64>) {
         line = other;
         lines.push(line);
         knots.push(at);
+    }
+}
+
+/// Feed from tooth to tooth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Feed {
+    /// Feed across the tool axis, mm per tooth.
+    pub level_mm: f64,
+    /// Feed down along the tool axis, mm per tooth; negative where the tool rises.
+    pub down_mm: f64,
+}
+
+impl Feed {
+    /// Feed across the tool axis, mm per tooth.
+    ///
+    /// # Errors
+    /// Negative, or more than 10 mm.
+    pub fn level(per_tooth_mm: f64) -> Result<Self> {
+        Self::ramp(per_tooth_mm, 0.0)
+    }
+
+    /// Feed across the tool axis and down along it, mm per tooth.
+    ///
+    /// # Errors
+    /// Negative across, or more than 10 mm either way.
+    pub fn ramp(level_mm: f64, down_mm: f64) -> Result<Self> {
+        let cut = CutErrorKind::Cut;
+        within(cut, "feed per tooth", level_mm, 0.0..=10.0, "mm")?;
+        within(
+            cut,
+            "feed per tooth down the axis",
+            down_mm,
+            -10.0..=10.0,
+            "mm",
+        )?;
+        Ok(Self { level_mm, down_mm })
     }
 }

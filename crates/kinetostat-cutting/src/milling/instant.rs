@@ -5,8 +5,7 @@ use std::f64::consts::TAU;
 use crate::engagement::{Contact, Edge};
 use crate::law::ForceLaw;
 use crate::milling::chip::Tooth;
-use crate::milling::cut::Milling;
-use crate::milling::cut_force::CutForce;
+use crate::milling::cut::{CutForce, Milling};
 use crate::number::integrate;
 use crate::tool::{Meridian, Piece};
 
@@ -55,7 +54,7 @@ impl<L: ForceLaw + ?Sized> Milling<'_, L> {
             return;
         }
         for (piece, from, to) in Piece::between(self.tool, contact.from_mm, contact.to_mm) {
-            self.heights_of_breaks(tooth, tip, contact, (&piece, from, to), breaks);
+            self.heights_of_breaks(tooth, tip, contact, &piece, [from, to], breaks);
             for pair in breaks.windows(2) {
                 let middle = piece.point(0.5 * (pair[0] + pair[1]));
                 let phi = tip - self.tool.lag_per_mm() * middle.height;
@@ -77,7 +76,8 @@ impl<L: ForceLaw + ?Sized> Milling<'_, L> {
         tooth: &Tooth,
         tip: f64,
         contact: &Contact,
-        (piece, from, to): (&Piece, f64, f64),
+        piece: &Piece,
+        [from, to]: [f64; 2],
         breaks: &mut Vec<f64>,
     ) {
         breaks.clear();
@@ -108,7 +108,7 @@ impl<L: ForceLaw + ?Sized> Milling<'_, L> {
         let (sin, cos) = phi.sin_cos();
         let chip = tooth.thickness(&self.feed, place, sin);
         if chip > 0.0 {
-            sum.add(place, (sin, cos), self.law.edge_force(chip), width);
+            sum.add(place, sin, cos, self.law.edge_force(chip), width);
         }
     }
 }

@@ -13,12 +13,9 @@
 
 mod chip;
 mod cut;
-mod cut_force;
-mod feed;
 mod instant;
 mod mean;
 mod peak;
-mod revolution;
 mod table;
 
 use std::f64::consts::PI;
@@ -31,11 +28,10 @@ use crate::law::ForceLaw;
 use crate::number::{integrate, larger};
 use crate::tool::{Meridian, Piece};
 
-pub use cut::{Milling, Rotation};
-pub use cut_force::CutForce;
-pub use feed::Feed;
+pub use chip::Feed;
+pub use cut::{CutForce, Milling, Rotation};
+pub use mean::{Harmonic, Revolution};
 pub use peak::{Peak, Peaks};
-pub use revolution::{Harmonic, Revolution};
 pub use table::MeanTable;
 
 /// Places of a corner at which chips are looked at, and angles of an arc.

@@ -9,8 +9,7 @@ use std::f64::consts::TAU;
 use crate::engagement::{Contact, Edge};
 use crate::law::ForceLaw;
 use crate::milling::chip::Tooth;
-use crate::milling::cut::Milling;
-use crate::milling::cut_force::CutForce;
+use crate::milling::cut::{CutForce, Milling};
 use crate::tool::{Meridian, Piece};
 
 /// Largest distance of two samples of a smooth interval, rad: forces are made of sines of the angle and of twice the angle.

@@ -8,10 +8,8 @@ use std::f64::consts::TAU;
 use crate::engagement::{Contact, Edge, Engagement};
 use crate::error::Result;
 use crate::law::ForceLaw;
-use crate::milling::chip::Chips;
-use crate::milling::cut::Rotation;
-use crate::milling::cut_force::CutForce;
-use crate::milling::feed::Feed;
+use crate::milling::chip::{Chips, Feed};
+use crate::milling::cut::{CutForce, Rotation};
 use crate::tool::{Meridian, Piece, Tool};
 
 /// Angles of the table over one turn, taken linearly: an error of some 1e-5 of the force of a slot, and of 5e-4 where the

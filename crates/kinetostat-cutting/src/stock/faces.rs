@@ -14,7 +14,7 @@
 //! Source: own work after the gradient-augmented level sets of Nave, Rosales and Seibold ("A gradient-augmented level set
 //! method with an optimally local, coherent advection scheme", Journal of Computational Physics 229, 2010).
 
-use crate::stock::normal::{Bend, Normal};
+use crate::stock::profile::{Bend, Normal};
 
 /// Walls whose normals have at least this cosine between them are one wall.
 const SAME_WALL: f64 = 0.8;

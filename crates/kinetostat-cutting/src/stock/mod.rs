@@ -11,14 +11,12 @@
 //! of their distances).
 
 mod arcs;
-mod blank;
 mod carve;
 mod corner;
 mod faces;
 mod grid;
 mod height_map;
 mod mesh;
-mod normal;
 mod probe;
 mod profile;
 mod rim;

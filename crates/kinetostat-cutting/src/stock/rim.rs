@@ -109,7 +109,8 @@ impl Cell {
 #[inline]
 fn inside(
     stock: &Stock,
-    (cell, columns): (&Cell, &[Column; 4]),
+    cell: &Cell,
+    columns: &[Column; 4],
     level: f64,
     stand: &Stand,
     radius: f64,
@@ -135,7 +136,7 @@ fn depth_in(stock: &Stock, place: [f64; 2], level: f64, stand: &Stand, radius: f
     };
     let columns = cell.columns(stock);
     let known = stock.known() as f32;
-    let inside = inside(stock, (&cell, &columns), level, stand, radius);
+    let inside = inside(stock, &cell, &columns, level, stand, radius);
     let walls: [f32; 4] = std::array::from_fn(|k| match inside[k] {
         true => columns[k].drop,
         false => columns[k].rise,
@@ -190,7 +191,7 @@ fn interpolated(stock: &Stock, place: [f64; 2], level: f64, stand: &Stand, radiu
         return -stock.cell;
     };
     let columns = cell.columns(stock);
-    let inside = inside(stock, (&cell, &columns), level, stand, radius);
+    let inside = inside(stock, &cell, &columns, level, stand, radius);
     let rim = OnRim {
         centre: stand.centre,
         radius,

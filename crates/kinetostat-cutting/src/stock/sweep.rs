@@ -1,7 +1,6 @@
 //! Coverage of grid points by the sweep of a tool along a straight move.
 
-use crate::stock::normal::{Bend, Normal};
-use crate::stock::profile::Profile;
+use crate::stock::profile::{Bend, Normal, Profile};
 
 /// A straight move seen from above, with its heights above the stock's bottom.
 #[derive(Clone, Copy, Debug, PartialEq)]

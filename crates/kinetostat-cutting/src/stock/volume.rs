@@ -1,7 +1,7 @@
 //! Volume of a stock.
 
 use crate::stock::grid::Stock;
-use crate::stock::normal::Normal;
+use crate::stock::profile::Normal;
 
 impl Stock {
     /// Volume of the material, mm^3: the square around each point, with the part of it beyond a wall at the height of the

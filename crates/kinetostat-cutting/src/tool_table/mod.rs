@@ -4,14 +4,11 @@
 //! `tool.tbl` has no teeth and no shape: an entry of ours with the same number completes it, and a tool that lacks one is
 //! named when it is asked for. Source of the format: LinuxCNC, `docs/src/gcode/tool-compensation.adoc`, "Tool Table Format".
 
-mod entry;
 mod linuxcnc;
-mod messages;
 mod table;
 mod toml_file;
 mod written;
 
-pub use entry::ToolEntry;
 pub use linuxcnc::{LinuxCncTable, LinuxCncTool, MachineUnit};
 pub use table::ToolTable;
-pub use written::WrittenTool;
+pub use written::{ToolEntry, WrittenTool};

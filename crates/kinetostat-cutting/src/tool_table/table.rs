@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use crate::error::{CutError, CutErrorKind, Result};
-use crate::tool_table::entry::ToolEntry;
 use crate::tool_table::linuxcnc::LinuxCncTable;
 use crate::tool_table::toml_file;
+use crate::tool_table::written::ToolEntry;
 
 /// Tools by number.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,6 @@ pub(crate) mod limb;
 pub(crate) mod machine;
 pub(crate) mod places;
 pub(crate) mod rotor;
-pub(crate) mod spin;
 
 use nalgebra::{DMatrix, DVector, Matrix6xX};
 

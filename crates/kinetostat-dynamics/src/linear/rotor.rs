@@ -1,4 +1,4 @@
-//! Rotors of drives on their side of the transmission [D 1].
+//! Rotors of drives on their side of the transmission [D 1], and gyroscopic terms of their angular momentum [D 6].
 //!
 //! A rotor sits before the transmission spring. With the motor held it adds nothing; with a servo of finite stiffness it
 //! has a coordinate of its own, as the joint sees it through the ratio `n`: inertia `n^2 J_r`, a spring `k_m` of the servo to
@@ -6,12 +6,13 @@
 //! `1/k = 1/k_t + 1/k_m`, so that nothing changes at rest. An "armature" added to the link's own coordinate would be on
 //! the wrong side of an elastic joint.
 
-use nalgebra::{DMatrix, DVector};
-
+use kinetostat::spatial::hat;
 use kinetostat::{Chain, Mechanism};
+use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::error::{Error, Result};
 use crate::linear::LinearDynamics;
+use crate::linear::places::Point;
 use crate::mass::{MassKind, MassPart};
 
 /// The rotor of a drive.
@@ -186,5 +187,27 @@ impl LinearDynamics {
             name: format!("{}.rotor", rotor.joint),
             index: all,
         });
+    }
+}
+
+impl LinearDynamics {
+    /// Gyroscopic matrix `-J_w^T hat(h) J_w` of a rotor that spins in the part at a point with the momentum `h` (inertia
+    /// about its axis times speed, kg m^2/s, base axes): skew, to be added to a damping matrix for
+    /// [`Self::complex_modes`]. That of a tool matters for the modes of the spindle, hardly for those of an arm.
+    ///
+    /// # Errors
+    /// [`Error::Question`] where the momentum is no number.
+    pub fn gyroscopic_matrix(&self, point: Point, momentum: &Vector3<f64>) -> Result<DMatrix<f64>> {
+        if momentum.iter().any(|x| !x.is_finite()) {
+            return Err(Error::Question(format!(
+                "the momentum of the rotor is {}, {}, {} kg m^2/s; finite numbers are needed",
+                momentum.x, momentum.y, momentum.z
+            )));
+        }
+        let motions = self.motions(point);
+        let turns = motions.rows(3, 3);
+        let half = turns.tr_mul(&(-hat(momentum) * turns));
+        // Skew without rounding.
+        Ok((&half - half.transpose()) * 0.5)
     }
 }

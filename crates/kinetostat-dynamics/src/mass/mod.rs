@@ -1,7 +1,6 @@
 //! Mass of bodies, of slices of links and of platforms, at the loaded posture [D1, D2, D7].
 
 pub(crate) mod body;
-pub(crate) mod declared;
 pub(crate) mod segment;
 
 use nalgebra::{DMatrix, DVector};

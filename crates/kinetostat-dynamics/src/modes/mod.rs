@@ -2,18 +2,15 @@
 
 pub(crate) mod complex;
 pub(crate) mod mode;
-pub(crate) mod moved;
-pub(crate) mod pair_shape;
 pub(crate) mod pencil;
 pub(crate) mod quadratic;
-pub(crate) mod shares;
 
 use nalgebra::{DMatrix, DVector, Matrix6};
 
 use crate::error::{Error, Result};
 use crate::linear::LinearDynamics;
-pub use mode::{Mode, ModeKind};
-pub use shares::EnergyShare;
+
+pub use mode::{EnergyShare, Mode, ModeKind};
 
 /// Numbers of directions of each kind.
 #[derive(

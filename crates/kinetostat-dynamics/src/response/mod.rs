@@ -1,10 +1,8 @@
 //! Responses to harmonic forces: by the sum of modes with residual flexibility, directly, and by limbs.
 
-pub(crate) mod at_rest;
 pub(crate) mod coupled;
 pub(crate) mod direct;
 pub(crate) mod modal;
-pub(crate) mod translational;
 
 use nalgebra::{Complex, Matrix6};
 

@@ -8,8 +8,7 @@ use crate::error::{Error, Result};
 use crate::linear::LinearDynamics;
 use crate::linear::places::Point;
 use crate::modes::{ModeKind, Modes};
-use crate::response::coupled::CoupledDamping;
-use crate::response::translational::TranslationalModes;
+use crate::response::coupled::{CoupledDamping, TranslationalModes};
 use crate::response::{Quantity, Receptance};
 
 /// One mode as two points see it.
@@ -102,7 +101,7 @@ impl ModalResponse {
         }
         let residual = dynamics.flexibility(modes, &b_at, &b_from, &terms, kept)?;
         terms.truncate(kept.max(modes.counts.free + modes.counts.unstable));
-        let coupling = dynamics.coupled_damping(modes, damping, (&b_at, terms.len()))?;
+        let coupling = dynamics.coupled_damping(modes, damping, &b_at, terms.len())?;
         Ok(Self {
             terms,
             residual,

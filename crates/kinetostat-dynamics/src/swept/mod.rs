@@ -11,5 +11,4 @@
 pub(crate) mod factor;
 pub(crate) mod long_chain;
 pub(crate) mod lowest;
-pub(crate) mod machine;
 pub(crate) mod stages;

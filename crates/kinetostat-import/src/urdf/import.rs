@@ -8,14 +8,15 @@ use kinetostat_model::{Model, ModelError, Problem};
 use nalgebra::Vector3;
 
 use crate::log::{At, Log, refusal, some_names};
-use crate::stiffness::{self, JointStiffness, Stiffnesses};
+use crate::stiffness;
+use crate::stiffness::{JointStiffness, Stiffnesses};
 use crate::urdf::chain::{Plan, Variable, Written, unique};
 use crate::urdf::close::frames;
 use crate::urdf::graph::{Graph, LinkPath, graph};
-use crate::urdf::loops::{self, Loops};
-use crate::urdf::options::UrdfOptions;
+use crate::urdf::loops::{Loops, UrdfOptions};
 use crate::urdf::remarks::{
-    in_metres, left_out, moving_base, one_limb_each, reach, several_platforms, standing,
+    in_metres, left_out, look_at_masses, moving_base, one_limb_each, reach, several_platforms,
+    standing,
 };
 use crate::urdf::request::{
     closed, closings, ends, followers, homes, known_stiffnesses, used, variables,
@@ -23,7 +24,7 @@ use crate::urdf::request::{
 use crate::urdf::robot::Robot;
 use crate::urdf::tree::{Tree, TreeStep, doubts, tree};
 use crate::urdf::write::{Parts, text};
-use crate::urdf::{inertial, read, xml};
+use crate::urdf::{loops, read, xml};
 
 /// Name of the section of all links.
 const SECTION: &str = "links";
@@ -206,7 +207,7 @@ fn remark(
     let moving: Vec<usize> = (0..robot.links.len())
         .filter(|l| !home.is_fixed(robot, *l))
         .collect();
-    inertial::look(robot, &moving, reach, log);
+    look_at_masses(robot, &moving, reach, log);
     standing(robot, &home.tree, &home.variables, &home.values, log);
     let between = |w: &LinkPath| w.from != home.base || w.to != home.tip;
     if graph.paths.len() > 1 && graph.paths.iter().any(between) {

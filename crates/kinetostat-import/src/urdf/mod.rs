@@ -5,9 +5,7 @@ mod chain;
 mod close;
 mod graph;
 mod import;
-mod inertial;
 mod loops;
-mod options;
 mod read;
 mod remarks;
 mod request;
@@ -18,6 +16,5 @@ mod write;
 mod xml;
 
 pub use import::{Imported, import_urdf, read_section};
-pub use loops::LoopFile;
-pub use options::UrdfOptions;
+pub use loops::{LoopFile, UrdfOptions};
 pub use xml::{MOST_URDF_BYTES, read_text};

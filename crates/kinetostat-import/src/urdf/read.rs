@@ -300,7 +300,7 @@ impl Reader<'_> {
                 inertia = match numbers[..] {
                     [Some(xx), Some(xy), Some(xz), Some(yy), Some(yz), Some(zz)] => {
                         let m = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-                        self.sound_inertia(inertia_node, (mass?, &m), &element)
+                        self.sound_inertia(inertia_node, mass?, &m, &element)
                     }
                     _ => None,
                 };
@@ -326,7 +326,8 @@ impl Reader<'_> {
     fn sound_inertia(
         &mut self,
         node: Node<'_, '_>,
-        (mass, m): (f64, &Matrix3<f64>),
+        mass: f64,
+        m: &Matrix3<f64>,
         element: &str,
     ) -> Option<(Matrix3<f64>, bool)> {
         let at = self.at(node, element);

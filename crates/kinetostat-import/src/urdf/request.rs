@@ -11,8 +11,7 @@ use crate::stiffness::Stiffnesses;
 use crate::urdf::chain::Variable;
 use crate::urdf::close::{Free, close};
 use crate::urdf::graph::{Graph, closing_steps};
-use crate::urdf::loops::Loops;
-use crate::urdf::options::UrdfOptions;
+use crate::urdf::loops::{Loops, UrdfOptions};
 use crate::urdf::robot::{Closure, Joint, JointType, Robot};
 use crate::urdf::tree::{Tree, TreeStep};
 

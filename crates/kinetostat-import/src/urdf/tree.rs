@@ -2,10 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use kinetostat::Pose;
+use kinetostat::{MotionKind, Pose};
 use nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
-
-use kinetostat::MotionKind;
 
 use crate::log::{At, Log, some_names, suggestion};
 use crate::urdf::robot::{JointType, Origin, Robot};

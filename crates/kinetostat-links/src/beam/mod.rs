@@ -1,5 +1,4 @@
 //! Links that are beams: materials, sections, and the stiffness of a straight or tapered cantilever.
 
-pub(crate) mod material;
 pub(crate) mod section;
 pub(crate) mod taper;

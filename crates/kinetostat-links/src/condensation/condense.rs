@@ -388,14 +388,7 @@ fn averaged_stiffness(
     factor: &Factor,
     parts: &Parts,
 ) -> Result<Matrix6<f64>> {
-    let middle = (&interface.middle, interface.rank.size);
-    let rows = averages(
-        element,
-        &interface.index,
-        &interface.places,
-        middle,
-        &parts.inner,
-    );
+    let rows = averages(element, interface, &parts.inner);
     of_average(factor, &rows, parts.count as usize)
         .and_then(|c| moved_to(&c, &(interface.end - interface.middle)).try_inverse())
         .ok_or_else(|| {
@@ -450,16 +443,16 @@ fn not_solved(error: &NoFactor, element: &Superelement, inner: &[u32]) -> Error 
 /// force on it by unit loads at the middle of the nodes (N, N m).
 fn averages(
     element: &Superelement,
-    interface: &[u64],
-    places: &[Vector3<f64>],
-    (middle, size): (&Vector3<f64>, f64),
+    interface: &Interface,
     inner: &[u32],
 ) -> Vec<(usize, Vector6<f64>)> {
+    let Interface { places, middle, .. } = interface;
     // Rotations in units of the interface's size keep the normal equations well-conditioned.
+    let size = interface.rank.size;
     let unit = Vector6::new(1.0, 1.0, 1.0, 1.0 / size, 1.0 / size, 1.0 / size);
     let mut rows: Vec<(usize, Vector6<f64>)> = Vec::new();
     for (i, dof) in element.dofs.iter().enumerate() {
-        let (Ok(at), 1..=3) = (interface.binary_search(&dof.node), dof.direction) else {
+        let (Ok(at), 1..=3) = (interface.index.binary_search(&dof.node), dof.direction) else {
             continue;
         };
         let d = usize::from(dof.direction) - 1;

@@ -176,7 +176,7 @@ fn csv(text: &Text, bare: Option<Units>) -> Result<Written> {
                         )
                         .at(at));
                 };
-                let matrix = bare_rows(text, (at, line), &mut lines)?;
+                let matrix = bare_rows(text, at, line, &mut lines)?;
                 written.rows = Some((matrix, units, false));
             }
             _ => {
@@ -205,11 +205,12 @@ fn csv(text: &Text, bare: Option<Units>) -> Result<Written> {
 /// Six rows without names, the first of which has been read.
 fn bare_rows<'t>(
     text: &Text,
-    first: (usize, &'t str),
+    first_at: usize,
+    first: &'t str,
     lines: &mut impl Iterator<Item = (usize, &'t str)>,
 ) -> Result<Matrix6<f64>> {
     let mut matrix = Matrix6::zeros();
-    let mut row = Some(first);
+    let mut row = Some((first_at, first));
     for i in 0..6 {
         let (at, line) = row.ok_or_else(|| rows_missing(text, i))?;
         set_row(

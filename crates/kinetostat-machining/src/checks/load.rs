@@ -5,7 +5,7 @@ use kinetostat::number::short;
 use kinetostat_program::{Move, SpindleRotation};
 use nalgebra::Vector3;
 
-use crate::checks::exceeded::{Exceeded, ODD};
+use crate::checks::{Exceeded, ODD};
 use crate::limits::Limits;
 use crate::load::law::{CuttingLoad, LoadAxes, ProgramLoad};
 use crate::placement::Placement;

@@ -3,18 +3,17 @@
 
 use kinetostat::MotionKind;
 use kinetostat::number::short;
-use kinetostat_program::{Accounting, Path};
+use kinetostat_program::{Accounting, Knowledge, Move, MoveKind, Path};
 
+use crate::checks::Exceeded;
 use crate::checks::correction::corrections;
-use crate::checks::exceeded::Exceeded;
 use crate::checks::load::{loads, numbered, of_law};
-use crate::checks::placement::below_base;
-use crate::checks::tool::note_length;
-use crate::joints::figures::most_loaded;
+use crate::checks::placement::{below_base, note_length};
+use crate::joints::most_loaded;
 use crate::limits::{Beyond, Limits};
 use crate::result::joints::RatingPlace;
 use crate::result::point::{PointResult, most, place};
-use crate::task::{Task, kinds};
+use crate::task::{NoMotion, Task, kinds};
 use crate::warning::{Warning, WarningCode};
 
 /// Figures of the question that are beyond their limits.
@@ -153,5 +152,33 @@ pub(crate) fn as_warning(beyond: &Beyond) -> Warning {
     Warning {
         line: beyond.line,
         ..Warning::new(WarningCode::OverLimit, of_line.to_string())
+    }
+}
+
+/// Reason for which the program has no motion that could need a correction; `None` if it has some.
+pub(crate) fn no_motion(path: &Path) -> Option<NoMotion> {
+    if path.moves.is_empty() {
+        return Some(NoMotion::NoMoves);
+    }
+    if path.moves.iter().any(|m| counts(m, path.stated)) {
+        return None;
+    }
+    Some(if path.stated.contains(&false) {
+        NoMotion::UnknownPlace
+    } else if path.moves.iter().any(|m| m.kind == MoveKind::Feed) {
+        NoMotion::NoLength
+    } else {
+        NoMotion::NoFeed
+    })
+}
+
+/// True if the move could be corrected: a rapid from an unknown place only if every axis is stated.
+fn counts(motion: &Move, stated: [bool; 3]) -> bool {
+    match motion.known {
+        Knowledge::Whole => {
+            motion.has_length() || motion.kind == MoveKind::Feed && motion.turns_in_place()
+        }
+        Knowledge::End => motion.kind == MoveKind::Feed || stated == [true; 3],
+        Knowledge::Nothing => false,
     }
 }

@@ -5,12 +5,11 @@ use kinetostat::number::{largest, short};
 use kinetostat_program::{Move, MoveKind, WriteOptions};
 use nalgebra::Vector3;
 
+use crate::checks::ODD;
 use crate::checks::correction::{besides, odd_correction};
-use crate::checks::exceeded::ODD;
 use crate::checks::load::{left_out, loads, never_acts, odd_load};
 use crate::checks::own_weight::by_own_loads;
-use crate::checks::placement::{origin_in_metres, outside_workspace};
-use crate::checks::tool::odd_tool;
+use crate::checks::placement::{odd_tool, origin_in_metres, outside_workspace};
 use crate::limits::Limits;
 use crate::result::point::{PointResult, most, size};
 use crate::result::summary::Summary;

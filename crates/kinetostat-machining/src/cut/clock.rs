@@ -3,7 +3,7 @@
 use kinetostat_program::{Knowledge, Move, MoveKind, Path, PauseKind};
 use serde::{Deserialize, Serialize};
 
-use crate::cut::failure::CutFailure;
+use crate::cut::finding::CutFailure;
 
 /// Unit of the P of a dwell (G4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -56,8 +56,9 @@ impl Clock {
             }
             waits.push(match i.checked_sub(1).filter(|_| between(i)) {
                 Some(before) => {
-                    let lines = (path.moves[before].line, motion.line);
-                    wait(path, lines, timing.dwell_unit, &mut pauses)?
+                    let after_line = path.moves[before].line;
+                    let unit = timing.dwell_unit;
+                    wait(path, after_line, motion.line, unit, &mut pauses)?
                 }
                 None => 0.0,
             });
@@ -116,12 +117,13 @@ impl Clock {
 /// Time between the blocks of two moves that dwells take, s; pauses of which nobody knows the time are listed.
 fn wait(
     path: &Path,
-    (after, before): (usize, usize),
+    after_line: usize,
+    before_line: usize,
     unit: Option<DwellUnit>,
     unknown: &mut Vec<(usize, PauseKind)>,
 ) -> Result<f64, CutFailure> {
     let mut seconds = 0.0;
-    for pause in path.pauses_between(after, before + 1) {
+    for pause in path.pauses_between(after_line, before_line + 1) {
         match (pause.kind, unit) {
             (PauseKind::DwellSeconds(stated), _)
             | (PauseKind::Dwell(stated), Some(DwellUnit::Seconds)) => seconds += stated,

@@ -6,13 +6,10 @@ use kinetostat_cutting::{CutError, Edge, Engagement, Feed, Milling, Rotation, St
 use kinetostat_program::{Move, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 
-use crate::cut::drive::Drive;
-use crate::cut::engagement_source::EngagementSource;
-use crate::cut::failure::CutFailure;
-use crate::cut::finding::{CutFindingKind, Findings};
-use crate::cut::force::ForceOf;
+use crate::cut::finding::{CutFailure, CutFindingKind, Findings};
+use crate::cut::force::{Drive, ForceOf};
 use crate::cut::profile::ForceAlongPath;
-use crate::cut::question::CutQuestion;
+use crate::cut::question::{CutQuestion, EngagementSource};
 use crate::cut::station::{ACROSS, ContactArc, CutStation, SHORT_MM};
 use crate::cut::walk::{Met, Walk};
 use crate::watch::Watch;
@@ -249,8 +246,14 @@ impl CutQuestion {
                 rpm: drive.rpm,
             };
             self.below_stock(motion, met, &drive, findings);
-            let place = (&station, &met.engagement);
-            self.look_at(place, (&drive, feed), motion.line, findings);
+            self.look_at(
+                &station,
+                &met.engagement,
+                &drive,
+                feed,
+                motion.line,
+                findings,
+            );
             stations.push(station);
         }
         Ok(stations)

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use kinetostat::number::{larger, short, smaller};
 use kinetostat_cutting::{Contact, Edge, Engagement, Feed, Milling, Rotation};
 
-use crate::cut::drive::Drive;
 use crate::cut::finding::{CutFindingKind, Findings};
+use crate::cut::force::Drive;
 use crate::cut::question::CutQuestion;
 use crate::cut::station::CutStation;
 
@@ -40,8 +40,10 @@ impl CutQuestion {
     /// Notes warnings about the cut at a station.
     pub(crate) fn look_at(
         &self,
-        (station, engagement): (&CutStation, &Engagement),
-        (drive, feed): (&Drive<'_>, Feed),
+        station: &CutStation,
+        engagement: &Engagement,
+        drive: &Drive<'_>,
+        feed: Feed,
         line: usize,
         findings: &mut Findings,
     ) {
@@ -118,7 +120,7 @@ impl CutQuestion {
                 }
             });
         }
-        look_at_end(engagement, (drive, feed), line, findings);
+        look_at_end(engagement, drive, feed, line, findings);
         if chip < larger(FINE.0 * tool.tool.diameter_mm(), FINE.1) {
             findings.add(CutFindingKind::ThinFeed, line, -chip, || {
                 format!(
@@ -145,7 +147,8 @@ impl CutQuestion {
 /// Force of a flat end whose chips are thinner than the law of force knows.
 fn look_at_end(
     engagement: &Engagement,
-    (drive, feed): (&Drive<'_>, Feed),
+    drive: &Drive<'_>,
+    feed: Feed,
     line: usize,
     findings: &mut Findings,
 ) {

@@ -8,10 +8,8 @@ use kinetostat_cutting::{
 use kinetostat_program::{Move, MoveKind, Path};
 
 use crate::cut::clock::{Clock, DwellUnit, Timing, cuts, longest_revolution};
-use crate::cut::failure::CutFailure;
-use crate::cut::finding::{CutFinding, CutFindingKind, Findings};
-use crate::cut::measured_report::{ActsOn, MeasuredAxes, MeasuredReport};
-use crate::cut::measured_stations::{Laid, step};
+use crate::cut::finding::{CutFailure, CutFinding, CutFindingKind, Findings};
+use crate::cut::measured_stations::{ActsOn, Laid, MeasuredAxes, MeasuredReport, step};
 use crate::cut::profile::ForceAlongPath;
 use crate::watch::Watch;
 

@@ -6,22 +6,14 @@
 //! ([`crate::MeasuredForces`]): a log over time by the time that each move takes. Knows no machine: the load that comes of it is
 //! [`crate::CuttingLoad::FromCut`].
 
-pub(crate) mod choice;
 pub(crate) mod clock;
-pub(crate) mod cutting_tool;
-pub(crate) mod drive;
-pub(crate) mod engagement_source;
-pub(crate) mod failure;
 pub(crate) mod finding;
 pub(crate) mod force;
 pub(crate) mod forces;
 pub(crate) mod limits;
 pub(crate) mod measured;
-pub(crate) mod measured_report;
 pub(crate) mod measured_stations;
-pub(crate) mod origin;
 pub(crate) mod profile;
 pub(crate) mod question;
 pub(crate) mod station;
-pub(crate) mod vertices;
 pub(crate) mod walk;

@@ -3,14 +3,13 @@
 use kinetostat::Wrench;
 use kinetostat::number::larger;
 use kinetostat_cutting::SpindleCurve;
+use serde::{Deserialize, Serialize};
 
 use crate::cut::finding::CutFinding;
-use crate::cut::measured_report::MeasuredReport;
-use crate::cut::origin::ForceOrigin;
+use crate::cut::measured_stations::MeasuredReport;
 use crate::cut::question::CutQuestion;
 use crate::cut::station::CutStation;
-use crate::cut::vertices::Vertices;
-use crate::profile::by_move::{ByMove, Profile, between};
+use crate::profile::{ByMove, Profile, between, reduced};
 
 /// The force of the cut along a path.
 #[derive(Clone, Debug)]
@@ -255,4 +254,70 @@ fn as_stations(profile: &Profile<6>, move_index: usize) -> Vec<CutStation> {
             ..CutStation::air(*share)
         })
         .collect()
+}
+
+/// Origin of forces along a path.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ForceOrigin {
+    /// Computed from material, tool and engagement.
+    #[default]
+    Computed,
+    /// Measured on the machine.
+    Measured,
+}
+
+/// A part of the largest force or moment that does not matter.
+const NEGLIGIBLE: f64 = 0.005;
+
+/// The largest force (N) and moment (N m) along a path.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scale {
+    pub force: f64,
+    pub moment: f64,
+}
+
+impl Scale {
+    /// Size of a wrench; 1 where it is no longer negligible.
+    pub fn size(&self, wrench: &[f64; 6]) -> f64 {
+        let wrench = Wrench((*wrench).into());
+        let relative = |size: f64, largest: f64| match size > 0.0 {
+            true => size / (NEGLIGIBLE * largest),
+            false => 0.0,
+        };
+        larger(
+            relative(wrench.force().norm(), self.force),
+            relative(wrench.moment().norm(), self.moment),
+        )
+    }
+
+    /// The vertices without which the load would be another.
+    pub fn needed(&self, vertices: &[(f64, [f64; 6])]) -> Vec<(f64, [f64; 6])> {
+        reduced(vertices, |off| self.size(off))
+    }
+}
+
+/// The load along a path by its vertices.
+#[derive(Clone, Debug)]
+pub(crate) struct Vertices {
+    pub profile: Profile<6>,
+    pub scale: Scale,
+}
+
+impl Vertices {
+    pub fn of(moves: &[Vec<CutStation>]) -> Self {
+        let wrenches = || moves.iter().flatten().map(|station| station.wrench);
+        let force = wrenches().map(|wrench| wrench.force().norm());
+        let moment = wrenches().map(|wrench| wrench.moment().norm());
+        let scale = Scale {
+            force: force.fold(0.0, larger),
+            moment: moment.fold(0.0, larger),
+        };
+        let mut profile = ByMove::new();
+        for own in moves {
+            let all: Vec<_> = own.iter().map(|s| (s.share, s.wrench.0.into())).collect();
+            profile.push(scale.needed(&all));
+        }
+        Self { profile, scale }
+    }
 }

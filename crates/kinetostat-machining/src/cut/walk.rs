@@ -4,8 +4,7 @@ use kinetostat_cutting::{Engagement, Probe, Result, Stock};
 use kinetostat_program::{Curve, Knowledge, Move, MoveKind};
 use nalgebra::Vector3;
 
-use crate::cut::cutting_tool::CuttingTool;
-use crate::cut::engagement_source::EngagementSource;
+use crate::cut::question::{CuttingTool, EngagementSource};
 
 /// Chords leave an arc by at most this share of a cell.
 const CHORD: f64 = 0.04;

@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 
-use crate::free_turn::checked::checked;
 use crate::free_turn::choice::{TurnCell, TurnChoice, TurnFigures, TurnMap, TurnStation};
 use crate::free_turn::constant::constant_turns;
 use crate::free_turn::error::TurnError;
@@ -11,7 +10,7 @@ use crate::free_turn::nodes::Node;
 use crate::free_turn::search::{Failed, Looked, Problem, Stand};
 use crate::free_turn::serial::Joints;
 use crate::free_turn::smooth::{Curve, smooth};
-use crate::free_turn::task::{TurnCurve, TurnTask};
+use crate::free_turn::task::{TurnCurve, TurnTask, checked};
 
 /// Number of times that the distance of stations is doubled along a path that is too long for them: from 5 mm to 160
 /// mm.

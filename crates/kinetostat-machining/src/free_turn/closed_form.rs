@@ -8,7 +8,7 @@ use kinetostat::{Mechanism, Pose};
 use nalgebra::{Point3, Unit, UnitQuaternion, Vector2, Vector3};
 
 use crate::free_turn::serial::{Joints, SerialArm};
-use crate::joints::arm::Arm;
+use crate::joints::Arm;
 
 /// Reason for which an arm does not reach a pose in a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

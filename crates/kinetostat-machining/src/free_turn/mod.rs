@@ -7,7 +7,6 @@
 //!
 //! Takes a machine with its tool, a path and where it lies; gives the turn along the path, or where and why there is none.
 
-pub(crate) mod checked;
 pub(crate) mod choice;
 pub(crate) mod choose;
 pub(crate) mod closed_form;
@@ -19,7 +18,6 @@ pub(crate) mod search;
 pub(crate) mod serial;
 pub(crate) mod shortest;
 pub(crate) mod smooth;
-pub(crate) mod stations;
 pub(crate) mod task;
 pub(crate) mod turned_path;
 pub(crate) mod way;

@@ -8,8 +8,8 @@ use crate::free_turn::error::{NoWay, TurnBarrier, TurnPart};
 use crate::free_turn::nodes::{Node, Refused};
 use crate::free_turn::search::{Found, Problem};
 use crate::free_turn::shortest::{Barrier, Progress, joint_turns};
-use crate::free_turn::stations::Gap;
 use crate::free_turn::task::{TurnBand, TurnTask};
+use crate::free_turn::way::Gap;
 
 /// Maximum number of parts in a suggested division of a program.
 const MOST_PARTS: usize = 1000;

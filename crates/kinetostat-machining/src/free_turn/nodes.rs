@@ -10,9 +10,8 @@ use nalgebra::Vector3;
 use crate::free_turn::closed_form::{NoWayThere, SixAxisArm};
 use crate::free_turn::error::TurnError;
 use crate::free_turn::serial::Joints;
-use crate::free_turn::stations::{Station, Turns};
 use crate::free_turn::task::{TipCompliance, TurnCriterion, TurnTask};
-use crate::free_turn::way::Way;
+use crate::free_turn::way::{Station, Turns, Way};
 
 /// One posture at one station.
 #[derive(Clone, Copy, Debug)]

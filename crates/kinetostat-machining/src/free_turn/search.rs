@@ -9,9 +9,8 @@ use crate::free_turn::error::TurnError;
 use crate::free_turn::nodes::{Node, Postures, Refused};
 use crate::free_turn::serial::Joints;
 use crate::free_turn::shortest::{Link, Links, Progress, joint_turns};
-use crate::free_turn::stations::{Station, Turns, lets_turn, stations};
 use crate::free_turn::task::TurnTask;
-use crate::free_turn::way::Way;
+use crate::free_turn::way::{Station, Turns, Way, lets_turn, stations};
 
 /// Rounds of searching again without the links that do not hold, ...
 const ROUNDS: usize = 2000;

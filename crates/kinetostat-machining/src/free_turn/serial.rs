@@ -6,7 +6,7 @@ use kinetostat::spatial::pose_residual;
 use kinetostat::{Mechanism, Pose};
 use nalgebra::{Matrix6, Point3, Unit, UnitQuaternion, Vector3, Vector6};
 
-use crate::joints::arm::six_turning;
+use crate::joints::six_turning;
 
 /// Joint values, rad.
 pub(crate) type Joints = [f64; 6];

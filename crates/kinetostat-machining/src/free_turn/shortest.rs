@@ -7,7 +7,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::free_turn::nodes::Node;
-use crate::free_turn::stations::{Gap, Station, Turns};
+use crate::free_turn::way::{Gap, Station, Turns};
 
 /// Fewer postures than this are not worth a second thread.
 const TOGETHER: usize = 64;

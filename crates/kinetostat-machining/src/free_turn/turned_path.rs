@@ -1,12 +1,11 @@
 //! The path with the turns that were chosen written into its moves.
 
 use kinetostat_program::{Arc, Curve, Feed, FeedMode, Knowledge, Move, Path, ToolTurn};
-use nalgebra::{Unit, UnitQuaternion, Vector3};
+use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::free_turn::checked::checked;
 use crate::free_turn::choice::TurnChoice;
 use crate::free_turn::error::TurnError;
-use crate::free_turn::task::TurnTask;
+use crate::free_turn::task::{TurnTask, checked};
 use crate::free_turn::way::{Section, Way};
 use crate::number::larger;
 
@@ -73,7 +72,7 @@ pub fn with_turns(task: &TurnTask<'_>, choice: &TurnChoice) -> Result<TurnedPath
             _ => Side::Behind,
         };
         for shares in pieces(choice, &knots, motion, section) {
-            let (piece, off) = piece(task, choice, (motion, section), shares, (&way.axis, side));
+            let (piece, off) = piece(task, choice, &way, index, shares, side);
             turned.axis_off_deg = larger(turned.axis_off_deg, off);
             turned.source.push(index);
             moves.push(piece);
@@ -169,10 +168,13 @@ fn pieces(choice: &TurnChoice, knots: &[f64], motion: &Move, section: &Section) 
 fn piece(
     task: &TurnTask<'_>,
     choice: &TurnChoice,
-    (motion, section): (&Move, &Section),
+    way: &Way<'_>,
+    index: usize,
     [from, to]: [f64; 2],
-    (axis, side): (&Unit<Vector3<f64>>, Side),
+    side: Side,
 ) -> (Move, f64) {
+    let (motion, section) = (&task.path.moves[index], &way.sections[index]);
+    let axis = &way.axis;
     let program = |share: f64| motion.orientation(share).unwrap_or_else(|| in_part(task));
     let way = |share: f64| section.from + share * section.length;
     let (start_deg, end_deg) = match (section.length > 0.0, motion.known, side) {

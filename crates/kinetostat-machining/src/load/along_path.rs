@@ -17,15 +17,14 @@
 use std::borrow::Cow;
 
 use kinetostat::Wrench;
-use kinetostat_program::{Curve, Move, MoveKind, Path};
+use kinetostat_program::{Curve, Move, MoveKind, Path, Turning};
 use nalgebra::{Rotation3, Vector3};
 
-use crate::cut::profile::{CutAxes, ForceAlongPath};
-use crate::cut::vertices::Scale;
+use crate::cut::profile::{CutAxes, ForceAlongPath, Scale};
 use crate::load::headings::{Headings, heading_on, headings, tool_frame};
 use crate::load::law::{CuttingLoad, LoadAxes, ProgramLoad, Tool, tool_on};
 use crate::placement::Placement;
-use crate::profile::by_move::Profile;
+use crate::profile::Profile;
 
 /// Forces of the cut.
 #[derive(Clone, Debug)]
@@ -155,11 +154,7 @@ impl<'a> LoadAlongPath<'a> {
         share: f64,
         direction: &Vector3<f64>,
     ) -> Wrench {
-        let along = heading_on(
-            self.path,
-            (move_index, share),
-            direction.try_normalize(1e-9),
-        );
+        let along = heading_on(self.path, move_index, share, direction.try_normalize(1e-9));
         self.wrench_headed(placement, move_index, share, along)
     }
 
@@ -285,26 +280,25 @@ impl<'a> LoadAlongPath<'a> {
         Wrench(full.0 * part)
     }
 
-    /// Wrench while the tool stands at a corner and the load has turned by `part` from that of one
-    /// place of the path to that of another (move and share): evenly, component by component.
+    /// Wrench while the tool stands at a corner at the start of the move and the load turns from that of one place of the path to that
+    /// of another: evenly, component by component.
     #[must_use]
     pub fn turning_wrench(
         &self,
         placement: &Placement,
-        from: (usize, f64),
-        to: (usize, f64),
-        part: f64,
+        move_index: usize,
+        turning: &Turning,
     ) -> Wrench {
-        let before = self.wrench(placement, from.0, from.1);
-        let after = self.wrench(placement, to.0, to.1);
-        Wrench(before.0.lerp(&after.0, part))
+        let before = self.wrench(placement, turning.from_move, turning.from_share);
+        let after = self.wrench(placement, move_index, turning.to_share);
+        Wrench(before.0.lerp(&after.0, turning.part))
     }
 
     fn heading_at(&self, move_index: usize, share: f64) -> Option<f64> {
         let motion = &self.path.moves[move_index];
         let h = self.headings.get(move_index).copied().unwrap_or_default();
         let along = h.around.or_else(|| motion.tangent(share));
-        let own = heading_on(self.path, (move_index, share), along)?;
+        let own = heading_on(self.path, move_index, share, along)?;
         let length = motion.length_mm();
         let load = self.load_of(move_index);
         let zone = load.turning_length_mm;

@@ -63,8 +63,8 @@ pub(crate) fn headings<'l>(
     for (i, (h, m)) in headings.iter_mut().zip(&path.moves).enumerate() {
         if m.kind == MoveKind::Feed && load_of(i).turns() {
             h.around = around(path, i);
-            h.at_start = heading_on(path, (i, 0.0), h.around.or_else(|| m.tangent(0.0)));
-            h.at_end = heading_on(path, (i, 1.0), h.around.or_else(|| m.tangent(1.0)));
+            h.at_start = heading_on(path, i, 0.0, h.around.or_else(|| m.tangent(0.0)));
+            h.at_end = heading_on(path, i, 1.0, h.around.or_else(|| m.tangent(1.0)));
         }
     }
     for i in 1..headings.len() {
@@ -95,7 +95,8 @@ pub(crate) fn tool_frame(path: &Path, move_index: usize, share: f64) -> UnitQuat
 /// Heading of a direction (part axes) at a share of a move in the axes of [`tool_frame`], rad; `None` along the tool.
 pub(crate) fn heading_on(
     path: &Path,
-    (move_index, share): (usize, f64),
+    move_index: usize,
+    share: f64,
     direction: Option<Vector3<f64>>,
 ) -> Option<f64> {
     match path.moves[move_index].tool_turn {

@@ -5,7 +5,7 @@ use kinetostat_program::Path;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::cut::origin::ForceOrigin;
+use crate::cut::profile::ForceOrigin;
 
 /// Axes of a constant wrench.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -5,7 +5,7 @@ use kinetostat_program::Path;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::profile::limited::Begins;
+use crate::profile::Begins;
 
 /// A change of the force inside a cut that is faster than the correction may follow, where that is worst on a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,7 +73,8 @@ impl RampFindings {
     /// Notes how a stated load begins on a run whose load would come over a length.
     pub fn begins(
         &mut self,
-        (path, run): (&Path, &[usize]),
+        path: &Path,
+        run: &[usize],
         begins: Begins,
         load: LoadBegins,
         needs_mm: f64,

@@ -13,13 +13,12 @@ use kinetostat::Wrench;
 use kinetostat::number::larger;
 use kinetostat_program::{Curve, Move, MoveKind, Path};
 
+use crate::cut::profile::Scale;
 use crate::cut::station::SHORT_MM;
-use crate::cut::vertices::Scale;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::law::{CuttingLoad, ProgramLoad};
 use crate::load::ramp_findings::{LoadBegins, RampFindings, TooFast};
-use crate::profile::by_move::{ByMove, Profile, reduced};
-use crate::profile::limited::{Begins, Place, SinceRapid, comes_over_mm, limited};
+use crate::profile::{Begins, ByMove, Place, Profile, SinceRapid, comes_over_mm, limited, reduced};
 
 /// A load in two readings.
 #[derive(Clone, Debug)]
@@ -92,7 +91,7 @@ impl<'a> LoadAlongPath<'a> {
                 Some(_) => LoadBegins::BelowHeight,
                 None => LoadBegins::AfterRapid,
             };
-            findings.begins((path, &run), begins, own, comes_over_mm(&places, &rate));
+            findings.begins(path, &run, begins, own, comes_over_mm(&places, &rate));
             for found in limited(&places, &rate, begins).unwrap_or_default() {
                 let place = &found.place;
                 all[place.move_index].push((place.share, found.value));
@@ -194,7 +193,7 @@ impl Limit<'_, '_> {
                 false => Begins::Anyhow,
             };
             let needs_mm = comes_over_mm(&places, &rate);
-            findings.begins((path, &run), begins, LoadBegins::AfterRapid, needs_mm);
+            findings.begins(path, &run, begins, LoadBegins::AfterRapid, needs_mm);
             let Some(found) = limited(&places, &rate, begins) else {
                 continue;
             };

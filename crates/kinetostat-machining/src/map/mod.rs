@@ -10,6 +10,7 @@ mod variable;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use MAP_BLOCK as BLOCK;
 use kinetostat::batch::Batch;
 use kinetostat::chain::FoundBy;
 use kinetostat::number::{larger, smaller};
@@ -18,9 +19,8 @@ use nalgebra::{UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
 use crate::map::solved::Solved;
-use crate::postures::neighbour::NEAR;
-use crate::postures::orientation::Orientation;
-use crate::result::solving::one_by_one_because;
+use crate::postures::neighbour::{NEAR, Orientation};
+use crate::result::summary::one_by_one_because;
 use crate::task::RunError;
 use crate::watch::Watch;
 
@@ -66,7 +66,6 @@ impl MapTask<'_> {
 
 /// Places that one thread takes at a time, and that `block` gets: a run that goes on begins with a whole one.
 pub const MAP_BLOCK: usize = 256;
-use MAP_BLOCK as BLOCK;
 /// Maximum number of blocks between two calls of the watch, and in memory at a time.
 const BLOCKS: usize = 64;
 /// A round of blocks takes about so long: what is solved is handed on, so that a run that is stopped loses no more.

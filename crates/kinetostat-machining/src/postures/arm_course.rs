@@ -7,7 +7,7 @@
 use kinetostat::{Posture, PostureRequest};
 use kinetostat_program::{Knowledge, Move};
 
-use crate::joints::arm::Arm;
+use crate::joints::Arm;
 use crate::task::Task;
 
 /// Distance from one posture to the next along the path, over moves that are shorter, mm, ...

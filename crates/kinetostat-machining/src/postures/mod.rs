@@ -6,4 +6,3 @@
 pub(crate) mod arm_course;
 pub(crate) mod configurations;
 pub(crate) mod neighbour;
-pub(crate) mod orientation;

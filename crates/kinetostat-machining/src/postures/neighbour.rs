@@ -6,14 +6,15 @@ use std::iter::Flatten;
 use std::vec::IntoIter;
 
 use kinetostat::batch::AlongPath;
+use kinetostat::compensation::{target_under_load, target_under_load_following};
+use kinetostat::machine::MechanismState;
 use kinetostat::{
-    Directions, Error, Mechanism, MechanismEquilibrium, Pose, Posture, Wrench,
-    compensation::{target_under_load, target_under_load_following},
-    machine::MechanismState,
+    Directions, Error, Mechanism, MechanismEquilibrium, Pose, Posture, PostureRequest, Wrench,
 };
 use rayon::prelude::*;
 
-use crate::postures::orientation::Orientation;
+use crate::load::law::ProgramLoad;
+use crate::placement::Placement;
 
 /// Points that share a chain of starting values: so many that the first of each run in it, which has no neighbour, takes little
 /// of the time.
@@ -63,7 +64,8 @@ impl Neighbour {
         mechanism: &Mechanism,
         pose: &Pose,
         wrench: &Wrench,
-        (orientation, corrected): (Orientation, Directions),
+        orientation: Orientation,
+        corrected: Directions,
     ) -> Result<Posture, Error> {
         let answer = if orientation.follows {
             let near = self.near(pose).map(|(posture, _)| posture);
@@ -96,8 +98,9 @@ impl Neighbour {
         pose: &Pose,
         wrench: &Wrench,
     ) -> Result<(Pose, Pose), Error> {
-        let holding = (Orientation::default(), Directions::POSITION);
-        let target = *self.target(mechanism, pose, wrench, holding)?.target();
+        let held = Orientation::default();
+        let posture = self.target(mechanism, pose, wrench, held, Directions::POSITION)?;
+        let target = *posture.target();
         let tool = self
             .last
             .as_ref()
@@ -151,4 +154,49 @@ pub(crate) fn in_chunks<T: Sync, R: Send>(
         .map(|items| work(&mut Default::default(), items))
         .collect();
     answers.into_iter().flatten()
+}
+
+/// Treatment of the orientation of a requested pose.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Orientation {
+    /// True if the tool only keeps near to it; otherwise it is held.
+    pub follows: bool,
+    /// The load is fixed in the tool and turns with it.
+    pub load_turns: bool,
+}
+
+impl Orientation {
+    pub fn of(placement: &Placement, load: &ProgramLoad) -> Self {
+        Self {
+            follows: placement.orientation_follows,
+            load_turns: placement.orientation_follows && load.in_tool_axes(),
+        }
+    }
+
+    /// The machine commanded for a pose, or for its position.
+    pub fn posture(
+        self,
+        mechanism: &Mechanism,
+        pose: &Pose,
+        near: Option<&Posture>,
+    ) -> Result<Posture, Error> {
+        let (position, rotation) = (&pose.translation.vector, &pose.rotation);
+        match (self.follows, near) {
+            (false, None) => mechanism.posture(pose),
+            (false, Some(near)) => mechanism.posture(PostureRequest::pose(pose).near(near)),
+            (true, None) => mechanism.posture(PostureRequest::position(position, rotation)),
+            (true, Some(near)) => {
+                mechanism.posture(PostureRequest::position(position, rotation).near(near))
+            }
+        }
+    }
+
+    /// The load that was given for the orientation of `pose`, where the tool has another one.
+    pub(crate) fn load(self, wrench: &Wrench, pose: &Pose, posture: &Posture) -> Wrench {
+        if !self.load_turns {
+            return *wrench;
+        }
+        let turn = posture.target().rotation * pose.rotation.inverse();
+        wrench.rotated(&turn.to_rotation_matrix())
+    }
 }

@@ -2,7 +2,7 @@
 //! the other. Its memory does not grow with the program.
 
 use crate::result::point::{PointKind, PointResult, size};
-use crate::result::stretches::{Joins, Stretches};
+use crate::result::selection::{Joins, Stretches};
 
 /// A quantity that changes along the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,8 +2,7 @@
 //! every stretch of the path. They are taken one after the other; the memory does not grow with the program.
 
 use crate::result::point::{PointKind, PointResult, size};
-use crate::result::selection::{extreme_values, farthest_off, worst};
-use crate::result::stretches::{Joins, Stretches};
+use crate::result::selection::{Joins, Stretches, extreme_values, farthest_off, worst};
 
 /// A point with its number in the order of the path.
 type Numbered = (usize, PointResult);

@@ -4,10 +4,9 @@
 use crate::load::law::CornerLoad;
 use crate::load::ramp_findings::LoadBegins;
 use crate::number::{counted, largest, largest_length};
-use crate::result::force_band::ForceBand;
 use crate::result::run_result::RunResult;
 use crate::result::tolerance::unchanged_text;
-use crate::result::uncertainty_band::UncertaintyBand;
+use crate::result::uncertainty_band::{ForceBand, UncertaintyBand};
 use crate::weight_correction::WeightCorrection;
 
 impl RunResult {

@@ -1,11 +1,13 @@
-//! Figures of a whole run.
+//! Figures of a whole run, and of the ways in which its points were solved.
 
-use crate::load::ramp_findings::LoadRamp;
-use crate::result::largest_change::LargestChange;
-use crate::result::solving::Solving;
+use kinetostat::Mechanism;
+use kinetostat::batch::Batch;
+use kinetostat::chain::FoundBy;
 use kinetostat_program::ShortBlocksOfLine;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::load::ramp_findings::LoadRamp;
 
 /// Figures of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
@@ -177,4 +179,100 @@ pub struct Summary {
 /// JSON knows no infinite numbers.
 fn infinite_where_null<'de, D: serde::Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
+}
+
+/// The fastest change of the written correction along feed moves, mm per mm of path: of the written positions less their places
+/// on the path, over every stretch of a hundred last digits (0.01 mm with four decimals), which rounding makes at most 0.018
+/// larger. Steps, where the tool stands at one place of the path, are no part of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
+#[non_exhaustive]
+pub struct LargestChange {
+    /// Largest change, mm per mm.
+    pub value: f64,
+    /// Line of the program on which it is.
+    pub line: usize,
+    /// Largest change that is stated for the load there ([`ProgramLoad::largest_step`](crate::ProgramLoad::largest_step)), mm per mm;
+    /// none where any is allowed.
+    pub stated: Option<f64>,
+    /// Lines on which the change is larger than what is stated for them, by more than rounding makes of it.
+    pub lines_beyond: usize,
+}
+
+/// Number of places found by one method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
+#[non_exhaustive]
+pub struct FoundCount {
+    /// Method, not [`FoundBy::Directly`].
+    pub found_by: FoundBy,
+    /// Places found so.
+    pub places: usize,
+}
+
+/// Methods by which the equilibria of many places were found, if not by the usual one: directly, and by kernels that
+/// take many places at once.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
+#[non_exhaustive]
+pub struct Solving {
+    /// Places that were not found directly.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub found_otherwise: Vec<FoundCount>,
+    /// Reason for which every place was solved by itself; `None` if kernels take many at once.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub one_by_one_because: Option<String>,
+}
+
+/// Reason for which the places of a machine are solved one by one, if they are: the orientation of its tool `follows`,
+/// or no kernel knows the machine.
+pub(crate) fn one_by_one_because(
+    mechanism: &Mechanism,
+    follows: bool,
+    loaded: bool,
+) -> Option<String> {
+    if follows {
+        return Some("the orientation of the tool follows from place to place".to_owned());
+    }
+    let batch = Batch::new(mechanism);
+    let engine = match loaded {
+        true => batch.engine(),
+        false => batch.engine_unloaded(),
+    };
+    engine.reason().map(ToString::to_string)
+}
+
+impl Solving {
+    /// Counts places that were found in one way; of those found directly nothing is kept.
+    pub fn note(&mut self, found_by: FoundBy, places: usize) {
+        if found_by == FoundBy::Directly || places == 0 {
+            return;
+        }
+        let known = self
+            .found_otherwise
+            .iter_mut()
+            .find(|own| own.found_by == found_by);
+        match known {
+            Some(own) => own.places += places,
+            None => self.found_otherwise.push(FoundCount { found_by, places }),
+        }
+    }
+
+    /// Counts the places of other ones besides.
+    pub fn add(&mut self, other: &Self) {
+        for own in &other.found_otherwise {
+            self.note(own.found_by, own.places);
+        }
+    }
+
+    /// One sentence for each way, and one for the engine; none where all was as usual. `place`: what is counted, as in
+    /// `place` or `point`.
+    #[must_use]
+    pub fn sentences(&self, place: &str) -> Vec<String> {
+        let ways = self.found_otherwise.iter();
+        let ways = ways.map(|own| {
+            let places = crate::number::counted(own.places, place);
+            format!("At {places} {}.", own.found_by.sentence())
+        });
+        let engine = self.one_by_one_because.iter();
+        let engine = engine.map(|why| format!("Every {place} was solved by itself: {why}."));
+        ways.chain(engine).collect()
+    }
 }

@@ -4,29 +4,27 @@ use kinetostat::number::{larger, largest, largest_length, smaller};
 use kinetostat::{Directions, Mechanism, MotionKind, Posture};
 use kinetostat_program::{Corrected, MachineProgram, Path};
 
-use crate::checks::few_places::every;
+use crate::checks::own_weight::every;
 use crate::checks::refused::{as_warning, of_points, of_task};
 use crate::checks::unusual::unusual;
-use crate::joints::figures::JointFigures;
+use crate::joints::JointFigures;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::ramp_findings::TooFast;
 use crate::measured_frame::PartPlace;
 use crate::near::{natural_length, near_singular};
-use crate::postures::orientation::Orientation;
+use crate::postures::neighbour::Orientation;
 use crate::result::assessment::{Assumption, AssumptionKind};
 use crate::result::envelope::Envelope;
 use crate::result::joints::JointsResult;
 use crate::result::kept_points::KeptPoints;
-use crate::result::point::{PointKind, PointResult};
-use crate::result::program_place::ProgramPlace;
-use crate::result::run_inputs::{ActuatorColumn, RunInputs, ToolAtCorners};
-use crate::result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
+use crate::result::point::{PointKind, PointResult, ProgramPlace};
+use crate::result::run_result::{
+    ActuatorColumn, NearSingularPlace, RESULT_SCHEMA, RunInputs, RunResult, ToolAtCorners,
+};
 use crate::result::summary::Summary;
-use crate::run::checked::Checked;
 use crate::run::cutting::cutting_result;
-use crate::run::following::following;
-use crate::run::joints::{joints_result, posture_warning};
-use crate::run::summary::{changes_faster_than_stated, summarise};
+use crate::run::joints::{following, joints_result, posture_warning};
+use crate::run::summary::{Checked, changes_faster_than_stated, summarise};
 use crate::run::tolerance::tolerance;
 use crate::run::whole_turns::whole_turns;
 use crate::task::Task;

@@ -53,11 +53,11 @@ pub fn cut_places<'a>(
     path.moves.iter().enumerate().flat_map(move |(i, motion)| {
         let start_mm = starts[i];
         let stations = forces.stations(i).iter();
-        let cut = stations.map(move |station| place(forces, motion, (i, start_mm), station));
+        let cut = stations.map(move |station| place(forces, motion, i, start_mm, station));
         let rapid = motion.kind == MoveKind::Rapid;
         let end = rapid.then(|| CutPlace {
             kind: PointKind::Rapid,
-            ..place(forces, motion, (i, start_mm), &CutStation::air(1.0))
+            ..place(forces, motion, i, start_mm, &CutStation::air(1.0))
         });
         cut.chain(end)
     })
@@ -66,7 +66,8 @@ pub fn cut_places<'a>(
 fn place(
     forces: &ForceAlongPath,
     motion: &Move,
-    (index, start_mm): (usize, f64),
+    index: usize,
+    start_mm: f64,
     station: &CutStation,
 ) -> CutPlace {
     let length = motion.known_length_mm();

@@ -24,11 +24,12 @@ const FIRST_LOOKS: usize = 8;
 const GROSS: f64 = 10.0;
 
 /// Some places on the moves of a program, spread evenly over them: ends of moves, or more of each where there are few.
-/// Takes the number of all moves, and of those before the first that is this path's own.
+/// `moves` is the number of all moves, `before` that of those before the first that is this path's own.
 fn sites(
     task: &Task<'_>,
     load: &LoadAlongPath<'_>,
-    (moves, before): (usize, usize),
+    moves: usize,
+    before: usize,
 ) -> impl Iterator<Item = Site> {
     let on_each = FIRST_LOOKS.div_ceil(moves.max(1));
     let every = (moves * on_each).div_ceil(FIRST_LOOKS).max(1);
@@ -65,7 +66,7 @@ impl FirstLook {
         load: &LoadAlongPath<'_>,
         watch: &dyn Watch,
     ) -> Result<Self, RunError> {
-        Self::at(task, load, (task.path().own_moves().len(), 0), watch)
+        Self::at(task, load, task.path().own_moves().len(), 0, watch)
     }
 
     /// Points on a part of a program, of the few places of the whole one of so many moves.
@@ -81,19 +82,20 @@ impl FirstLook {
         let path = task.path();
         let before = path.part.as_ref().map_or(0, |part| part.moves_before);
         let before = before + path.own_moves().start;
-        Self::at(task, load, (moves, before), watch)
+        Self::at(task, load, moves, before, watch)
     }
 
     fn at(
         task: &Task<'_>,
         load: &LoadAlongPath<'_>,
-        spread: (usize, usize),
+        moves: usize,
+        before: usize,
         watch: &dyn Watch,
     ) -> Result<Self, RunError> {
         let machines = Machines::new(task);
         let frame = MeasuredFrame::of(task, None)?;
         let mut look = Self::default();
-        for (index, site) in sites(task, load, spread).enumerate() {
+        for (index, site) in sites(task, load, moves, before).enumerate() {
             if watch.cancelled() {
                 return Err(RunError::Cancelled);
             }

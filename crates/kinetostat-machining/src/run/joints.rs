@@ -1,14 +1,19 @@
-//! Limits, ratings and configuration along a program, and where an arm cannot follow it in one posture.
+//! Limits, ratings and configuration along a program, where an arm cannot follow it in one posture, and jumps of a tool whose
+//! orientation follows.
 
+use kinetostat::batch::AlongPath;
 use kinetostat::number::{larger, smaller};
 use kinetostat::{Mechanism, MotionKind};
-use nalgebra::{Quaternion, UnitQuaternion};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::checks::refused::share_of_rating;
-use crate::joints::figures::JointFigures;
+use crate::joints::JointFigures;
 use crate::near::natural_length;
+use crate::number::largest_angle;
+use crate::postures::neighbour::NEAR;
 use crate::result::joints::{JointsResult, LimitPlace, PostureChange};
 use crate::result::point::{PointKind, PointResult, place};
+use crate::result::summary::Summary;
 use crate::run::way_out::{Places, way_out};
 use crate::task::{Task, kinds};
 use crate::warning::{Warning, WarningCode};
@@ -225,4 +230,44 @@ pub(crate) fn posture_warning(
         first.line,
         format!("{between}{at} {what}{more}{way}"),
     ))
+}
+
+/// Rotation vector between two orientations, base axes, deg.
+pub(crate) fn turn_deg(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> [f64; 3] {
+    let turn = (to * from.inverse()).scaled_axis();
+    turn.map(f64::to_degrees).into()
+}
+
+/// Neighbours on the path between which a tool whose orientation follows turns farther than the way
+/// between them explains: the machine has changed its branch. The line of the second.
+pub(crate) fn jump(task: &Task<'_>, points: &[PointResult]) -> Option<usize> {
+    let near = NEAR * task.mechanism.size();
+    points.windows(2).find_map(|pair| {
+        let [a, b] = [pair[0].tool_turn_deg?, pair[1].tool_turn_deg?];
+        let distance = Vector3::from(pair[1].position_mm) - Vector3::from(pair[0].position_mm);
+        let distance = task.placement.to_metres(&distance).norm();
+        let turn = (Vector3::from(b) - Vector3::from(a)).norm().to_radians();
+        (distance < near && turn > AlongPath::JUMP).then_some(pair[1].line)
+    })
+}
+
+/// Warnings about a tool whose orientation follows.
+pub(crate) fn following(
+    task: &Task<'_>,
+    points: &[PointResult],
+    summary: &Summary,
+) -> Vec<Warning> {
+    let code = WarningCode::OrientationFollows;
+    let turns = summary.max_tool_turn_deg.map(|turn| {
+        let text = format!(
+            "the orientation follows: the tool turns by up to {} from the orientation it is kept near to",
+            largest_angle(turn)
+        );
+        Warning::new(code, text)
+    });
+    let jumps = jump(task, points).map(|line| {
+        let text = "the orientation of the tool jumps here: the machine would have to change its branch, or passes close to a singular posture";
+        Warning::at_line(code, line, text)
+    });
+    turns.into_iter().chain(jumps).collect()
 }

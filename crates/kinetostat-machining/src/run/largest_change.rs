@@ -59,17 +59,18 @@ impl Changes {
     }
 }
 
-/// A piece of a stretch without steps and rapids: its index, and the length of path at its ends, mm.
-type Along = (usize, [f64; 2]);
+/// A piece of a stretch without steps and rapids.
+struct Along {
+    /// Index of the piece.
+    piece: usize,
+    /// Length of path at its ends, mm.
+    ends_mm: [f64; 2],
+}
 
 /// The place and the correction at a length of path in a piece.
-fn at(
-    path: &Path,
-    written: &Corrected,
-    (piece, [from, to]): Along,
-    at_mm: f64,
-) -> ((usize, f64), Vector3<f64>) {
-    let piece: &Piece = &written.pieces[piece];
+fn at(path: &Path, written: &Corrected, along: &Along, at_mm: f64) -> ((usize, f64), Vector3<f64>) {
+    let piece: &Piece = &written.pieces[along.piece];
+    let [from, to] = along.ends_mm;
     let motion = &path.moves[piece.move_index];
     let part = ((at_mm - from) / (to - from)).clamp(0.0, 1.0);
     let share = piece.share_from + part * (piece.share_to - piece.share_from);
@@ -95,7 +96,7 @@ pub(crate) fn changes(
     let mut found = Changes::default();
     let mut stretch: Vec<Along> = Vec::new();
     let mut close = |stretch: &mut Vec<Along>| {
-        of_stretch((path, written), writing, stretch, &stated, &mut found);
+        of_stretch(path, written, writing, stretch, &stated, &mut found);
         stretch.clear();
     };
     for (index, piece) in written.pieces.iter().enumerate() {
@@ -108,8 +109,11 @@ pub(crate) fn changes(
         }
         let length = motion.length_between_mm(piece.share_from, piece.share_to);
         if length > 0.0 {
-            let from = stretch.last().map_or(0.0, |(_, [_, to])| *to);
-            stretch.push((index, [from, from + length]));
+            let from = stretch.last().map_or(0.0, |last| last.ends_mm[1]);
+            stretch.push(Along {
+                piece: index,
+                ends_mm: [from, from + length],
+            });
         }
     }
     close(&mut stretch);
@@ -118,33 +122,35 @@ pub(crate) fn changes(
 
 /// Largest change between two places at this distance: one of them is the end of a piece.
 fn of_stretch(
-    (path, written): (&Path, &Corrected),
+    path: &Path,
+    written: &Corrected,
     writing: &WriteOptions,
     stretch: &[Along],
     stated: &impl Fn(usize) -> f64,
     found: &mut Changes,
 ) {
-    let Some(&(_, [_, whole_mm])) = stretch.last() else {
+    let Some(last) = stretch.last() else {
         return;
     };
-    let motion = |(piece, _): &Along| &path.moves[written.pieces[*piece].move_index];
+    let whole_mm = last.ends_mm[1];
+    let motion = |along: &Along| &path.moves[written.pieces[along.piece].move_index];
     let digits = stretch
         .iter()
         .map(|along| writing.last_digit_mm(motion(along).words.mm_per_unit));
     let way_mm = DIGITS * digits.fold(0.0, kinetostat::number::larger);
     let (mut before, mut after) = (0, 0);
     for (i, along) in stretch.iter().enumerate() {
-        let [start, end] = along.1;
-        while stretch[after].1[1] < start + way_mm && after + 1 < stretch.len() {
+        let [start, end] = along.ends_mm;
+        while stretch[after].ends_mm[1] < start + way_mm && after + 1 < stretch.len() {
             after += 1;
         }
-        while stretch[before].1[1] < end - way_mm && before < i {
+        while stretch[before].ends_mm[1] < end - way_mm && before < i {
             before += 1;
         }
         let line = motion(along).line;
-        let mut look = |a: (Along, f64), b: (Along, f64)| {
-            let (from, first) = at(path, written, a.0, a.1);
-            let (to, last) = at(path, written, b.0, b.1);
+        let mut look = |a: &Along, a_mm: f64, b: &Along, b_mm: f64| {
+            let (from, first) = at(path, written, a, a_mm);
+            let (to, last) = at(path, written, b, b_mm);
             found.note(Change {
                 line,
                 mm_per_mm: (last - first).norm() / way_mm,
@@ -155,10 +161,10 @@ fn of_stretch(
         };
         // A stretch that is shorter is taken whole.
         if i == 0 || start + way_mm <= whole_mm {
-            look((*along, start), (stretch[after], start + way_mm));
+            look(along, start, &stretch[after], start + way_mm);
         }
         if end >= way_mm {
-            look((stretch[before], end - way_mm), (*along, end));
+            look(&stretch[before], end - way_mm, along, end);
         }
     }
 }

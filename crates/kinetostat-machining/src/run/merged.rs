@@ -139,7 +139,7 @@ impl MergedRun {
             }
         };
         let whole = &result.summary;
-        self.warnings.add(task, (self.parts, run), whole);
+        self.warnings.add(task, self.parts, run, whole);
         self.result = Some(result);
     }
 

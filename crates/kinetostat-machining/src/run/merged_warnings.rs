@@ -44,7 +44,7 @@ pub(crate) struct MergedWarnings {
 
 impl MergedWarnings {
     /// Takes those of the next part; `whole` are the figures with it.
-    pub(crate) fn add(&mut self, task: &Task<'_>, (part, run): (usize, &Run), whole: &Summary) {
+    pub(crate) fn add(&mut self, task: &Task<'_>, part: usize, run: &Run, whole: &Summary) {
         let cuts = |kind: PointKind| kind != PointKind::Rapid;
         let does_cut = run.points.iter().any(|p| cuts(p.kind));
         let loaded = |force: [f64; 3]| force.iter().any(|x| *x != 0.0);

@@ -3,17 +3,12 @@
 //! Takes a [`Task`](crate::Task); gives a [`Run`](crate::Run). In the order of events: a first look, corrections written
 //! and read again, every place solved, blocks divided again where the tool is off, the result.
 
-pub(crate) mod checked;
 pub(crate) mod compensate;
 pub(crate) mod conclude;
-pub(crate) mod corner_steps;
 pub(crate) mod cutting;
 pub(crate) mod first_look;
-pub(crate) mod following;
-pub(crate) mod force_band;
 pub(crate) mod joints;
 pub(crate) mod largest_change;
-pub(crate) mod look_at_part;
 pub(crate) mod merged;
 pub(crate) mod merged_warnings;
 pub(crate) mod movable;
@@ -21,7 +16,6 @@ pub(crate) mod other_load;
 pub(crate) mod places;
 pub(crate) mod points;
 pub(crate) mod preparation;
-pub(crate) mod refused_question;
 pub(crate) mod sites;
 pub(crate) mod summary;
 pub(crate) mod tolerance;

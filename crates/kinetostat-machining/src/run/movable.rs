@@ -7,7 +7,7 @@ use kinetostat::{Error, Pose, Wrench};
 use nalgebra::Vector3;
 
 use crate::field::cause_and_advice;
-use crate::joints::figures::JointFigures;
+use crate::joints::JointFigures;
 use crate::load::along_path::LoadAlongPath;
 use crate::measured_frame::{MeasuredFrame, PartPlace};
 use crate::placement::Placement;
@@ -201,9 +201,11 @@ impl<'t, 'm> MovableProgram<'t, 'm> {
                     Some(targets) => targets,
                     None => {
                         let mut memory = Neighbour::default();
-                        let (mechanism, how) = (machine.mechanism(), (orientation, corrected));
+                        let mechanism = machine.mechanism();
                         let mut target = |i: usize| {
-                            let found = memory.target(mechanism, &poses[i], &wrenches[i], how);
+                            let (pose, wrench) = (&poses[i], &wrenches[i]);
+                            let found =
+                                memory.target(mechanism, pose, wrench, orientation, corrected);
                             let found = found.map(|found| *found.target());
                             found.map_err(|cause| (first + i, failed(&sites[i], cause)))
                         };

@@ -7,8 +7,7 @@ use crate::load::along_path::LoadAlongPath;
 use crate::load::law::tool_on;
 use crate::postures::arm_course::ArmCourse;
 use crate::postures::neighbour::{Neighbour, in_chunks};
-use crate::result::point::{PointKind, PointResult, size};
-use crate::result::program_place::ProgramPlace;
+use crate::result::point::{PointKind, PointResult, ProgramPlace, size};
 use crate::result::selection::{thinned, worst};
 use crate::run::points::{Machines, Solving};
 use crate::run::sites::site::Site;
@@ -34,7 +33,7 @@ pub(crate) fn places<S: Iterator<Item = Site>>(
     let machines = Machines::new(task);
     let compliances = in_chunks(&chosen, |memory, some| {
         let of = |(_, site): &(usize, Site)| {
-            compliance(task, &machines, &mut memory[0], (site, how.course))
+            compliance(task, &machines, &mut memory[0], site, how.course)
         };
         some.iter().map(of).collect()
     });
@@ -51,7 +50,8 @@ fn compliance(
     task: &Task<'_>,
     machines: &Machines<'_, '_>,
     memory: &mut Neighbour,
-    (site, course): (&Site, Option<&ArmCourse>),
+    site: &Site,
+    course: Option<&ArmCourse>,
 ) -> Option<[[f64; 3]; 3]> {
     if let Some(posture) = course.and_then(|c| c.standing_at(site.move_index, site.share)) {
         memory.stand_at(posture);

@@ -7,14 +7,13 @@ use kinetostat::{Error, MechanismEquilibrium, MotionKind, Pose, Posture, Wrench}
 use nalgebra::UnitQuaternion;
 
 use crate::field::cause_and_advice;
-use crate::joints::figures::{JointFigures, in_display};
+use crate::joints::{JointFigures, in_display};
 use crate::load::law::{Tool, tool_on};
 use crate::measured_frame::{FrameMotion, MeasuredFrame, PartPlace};
 use crate::postures::arm_course::ArmCourse;
-use crate::postures::neighbour::{Neighbour, in_chunks};
-use crate::postures::orientation::Orientation;
+use crate::postures::neighbour::{Neighbour, Orientation, in_chunks};
 use crate::result::point::{PointResult, size};
-use crate::run::following::turn_deg;
+use crate::run::joints::turn_deg;
 use crate::run::sites::site::Site;
 use crate::task::{NoMotion, RunError, Task, kinds};
 use crate::watch::Watch;

@@ -3,19 +3,19 @@
 use kinetostat::number::smaller;
 use kinetostat_program::CorrectionField;
 
-use crate::checks::motion::no_motion;
-use crate::checks::refused::of_task;
+use crate::checks::refused::{as_warning, no_motion, of_task};
 use crate::field::ModelField;
 use crate::limits::Beyond;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::ramps::Ramped;
 use crate::measured_frame::MeasuredFrame;
 use crate::postures::arm_course::ArmCourse;
-use crate::postures::orientation::Orientation;
+use crate::postures::neighbour::Orientation;
 use crate::run::first_look::FirstLook;
 use crate::run::points::Solving;
 use crate::task::{RunError, Task};
-use crate::watch::Watch;
+use crate::warning::{Warning, WarningCode};
+use crate::watch::{Unwatched, Watch};
 
 /// Refuses what is beyond its limits.
 pub(crate) fn refuse(beyond: Vec<Beyond>) -> Result<(), RunError> {
@@ -154,4 +154,54 @@ impl Default for OfWhole {
             as_it_is: false,
         }
     }
+}
+
+/// A first look at a part of a whole program, to be added to what is found in the others; `compensate`: it is to be corrected. A
+/// program that takes hours to be solved everywhere is refused here, at some places of every part; the smallest stiffness is that
+/// of the places which a first look at the whole program takes, so that it does not depend on how long the parts are.
+///
+/// # Errors
+/// A load under which the machine folds over, or corrections that are beyond their limits by far.
+pub fn look_at_part(
+    whole: OfWhole,
+    task: &Task<'_>,
+    compensate: bool,
+    watch: &dyn Watch,
+) -> Result<OfWhole, RunError> {
+    let load: LoadAlongPath<'_> = load(task);
+    let looked = FirstLook::new(task, &load, watch)?;
+    refuse(match compensate {
+        true => looked.gross(task),
+        false => looked.folding_load(task),
+    })?;
+    let of_whole = FirstLook::of_whole(task, &load, whole.moves, watch)?;
+    Ok(OfWhole {
+        stiffness_n_per_mm: of_whole.stiffness(),
+        ..whole
+    })
+}
+
+/// Reasons for which a compensation refuses a question before anything is solved along the whole program, as warnings, and its
+/// first error. `is_placed`: the tool stands as the task says, and not as it is still to be chosen, so that figures at places
+/// count.
+#[must_use]
+pub fn refused_question(task: &Task<'_>, is_placed: bool) -> (Vec<Warning>, Option<RunError>) {
+    let mut errors = Vec::new();
+    errors.extend(refuse(of_task(task)).err());
+    match no_motion(task.path()) {
+        Some(reason) => errors.push(RunError::NoMotion(reason)),
+        None => match FirstLook::new(task, &load(task), &Unwatched) {
+            Err(error) => errors.push(error),
+            Ok(looked) if is_placed => {
+                errors.extend(refuse(looked.beyond(task)).err());
+                errors.extend(looked.beginning_solved().err());
+            }
+            Ok(_) => {}
+        },
+    }
+    let said = errors.iter().flat_map(|error| match error {
+        RunError::BeyondLimits(beyond) => beyond.iter().map(as_warning).collect(),
+        error => vec![Warning::new(WarningCode::Program, error.to_string())],
+    });
+    (said.collect(), errors.into_iter().next())
 }

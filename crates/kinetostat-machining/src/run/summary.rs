@@ -1,4 +1,4 @@
-//! Figures of a run from its points and from the written program.
+//! Figures of a run from its points, from the written program and from the check of that program.
 
 use kinetostat::number::{largest_length, smaller};
 use kinetostat_program::{Corrected, Curve, MoveKind, Path};
@@ -7,12 +7,11 @@ use crate::checks::own_weight::largest_by_own_weight;
 use crate::checks::refused::largest_share_of_rating;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::law::CornerLoad;
+use crate::load::ramp_findings::RampFindings;
 use crate::result::figures::per_mm;
-use crate::result::largest_change::LargestChange;
-use crate::result::point::{PointKind, PointResult, size};
-use crate::result::solving::{Solving, one_by_one_because};
-use crate::result::summary::Summary;
-use crate::run::checked::Checked;
+use crate::result::point::{PointKind, PointResult, ProgramPlace, size};
+use crate::result::summary::{LargestChange, Solving, Summary, one_by_one_because};
+use crate::result::uncertainty_band::ForceBand;
 use crate::run::largest_change::{Change, Changes};
 use crate::task::Task;
 use crate::warning::{Warning, WarningCode};
@@ -282,4 +281,27 @@ fn reason(
         true => "the direction of the force turns with the feed there, and the correction follows it".to_owned(),
         false => "the size of the force changes there, and the machine gives way more than where it was looked at first".to_owned(),
     }
+}
+
+/// Results of the check of a written program besides its points.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Checked {
+    /// Largest error of the speed along the part where the feed was not limited, percent.
+    pub(crate) speed_percent: f64,
+    /// Largest error on the corner steps that were not read so, if the load turns evenly there, mm.
+    pub(crate) if_turns_mm: Option<f64>,
+    /// Largest error on these steps, if the load follows the feed there.
+    pub(crate) if_follows_mm: Option<f64>,
+    /// The errors with the force larger and smaller by its spread.
+    pub(crate) force_band: Option<ForceBand>,
+    /// Places that the task asks for.
+    pub(crate) places: Vec<ProgramPlace>,
+    /// Warning about blocks that were divided again because the tool was found off.
+    pub(crate) divided_again: Option<Warning>,
+    /// The program as it is keeps the tolerance, and was left so.
+    pub(crate) within_before: bool,
+    /// Fastest changes of the correction.
+    pub(crate) changes: Changes,
+    /// Ramps of the load.
+    pub(crate) ramps: RampFindings,
 }

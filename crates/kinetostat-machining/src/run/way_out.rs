@@ -5,7 +5,7 @@ use kinetostat_program::WriteError;
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
-use crate::joints::arm::Arm;
+use crate::joints::Arm;
 use crate::measured_frame::PartPlace;
 use crate::near::{NEAR_SINGULAR, natural_length};
 use crate::result::joints::WayOut;
@@ -45,7 +45,7 @@ impl Places {
     }
 
     /// Places of a program that could not be solved at a place.
-    fn of_path(task: &Task<'_>, worst: (usize, Pose)) -> Self {
+    fn of_path(task: &Task<'_>, line: usize, pose: Pose) -> Self {
         let known = task.path().moves.iter().filter(|m| m.is_known_feed());
         let stride = known.clone().count().div_ceil(MOST_PLACES).max(1);
         // A short program is looked at in more places than its ends.
@@ -62,7 +62,7 @@ impl Places {
             })
         });
         Self {
-            worst: vec![worst],
+            worst: vec![(line, pose)],
             along: places.collect(),
         }
     }
@@ -158,7 +158,7 @@ pub(crate) fn with_way_out(task: &Task<'_>, error: RunError) -> RunError {
     ) {
         return error;
     }
-    let said = way_out(task, &arm, &Places::of_path(task, (line, pose))).description();
+    let said = way_out(task, &arm, &Places::of_path(task, line, pose)).description();
     match error {
         RunError::Point {
             line,

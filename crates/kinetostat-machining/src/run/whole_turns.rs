@@ -4,7 +4,7 @@
 use kinetostat::number::{larger, smaller};
 use kinetostat::{Mechanism, MotionKind};
 
-use crate::joints::figures::JointFigures;
+use crate::joints::JointFigures;
 use crate::result::point::{PointKind, PointResult, place};
 use crate::task::Task;
 use crate::warning::{Warning, WarningCode};

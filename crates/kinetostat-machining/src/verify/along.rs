@@ -3,7 +3,6 @@
 use kinetostat::number::larger;
 use kinetostat_program::{Arc, Curve, NominalPath, Path, Piece, Turn, WrittenCircle};
 
-use crate::verify::followed::Followed;
 use crate::verify::matched::ExtraCut;
 use crate::verify::on_guide::OnGuide;
 use crate::verify::places::End;
@@ -254,4 +253,17 @@ impl Along<'_> {
             is_same: false,
         });
     }
+}
+
+/// A piece of the other program with the move of it that it is a part of.
+pub(crate) struct Followed {
+    pub(crate) piece: Piece,
+    /// Index of the move in the other program, and the share of it at which the piece ends.
+    pub(crate) other_end: (usize, f64),
+    /// The share of it at which the piece begins.
+    pub(crate) other_from: f64,
+    /// True if its end is fixed: the load turns there, or it is where a move of the original was found again.
+    pub(crate) is_held: bool,
+    /// A part of a move that the original makes just so.
+    pub(crate) is_same: bool,
 }

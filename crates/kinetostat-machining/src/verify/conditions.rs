@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use kinetostat_program::{FeedMode, Move, Path, SpeedMode, Spindle, SpindleRotation};
 
-use crate::verify::followed::Followed;
+use crate::verify::along::Followed;
 use crate::verify::matched::{Condition, OtherCondition};
 
 /// Feeds and speeds that differ by less, as a share, are the same.

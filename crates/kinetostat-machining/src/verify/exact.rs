@@ -9,7 +9,7 @@ use kinetostat_program::{
 };
 use nalgebra::Vector3;
 
-use crate::verify::followed::Followed;
+use crate::verify::along::Followed;
 
 /// Equal ways on a part of an arc belong to equal ways on the original within this, mm, or the part is halved.
 const EVEN_MM: f64 = 2e-5;
@@ -219,7 +219,7 @@ impl Abreast {
     }
 
     /// Takes a step, if it is no longer than steps may be; the compensated path goes `along_mm` in a whole turn.
-    fn go(&mut self, original: &Path, (step, along_mm): (f64, f64)) {
+    fn go(&mut self, original: &Path, step: f64, along_mm: f64) {
         let moved = (self.at() + step).clamp(0.0, 1.0);
         match &mut self.turning {
             Some(turning) => {
@@ -260,7 +260,7 @@ fn find(original: &Path, field: &dyn CorrectionField, places: &mut [Abreast]) {
             };
             let along = (there - here) / (beside(original, place) - place.at());
             let step = (place.point - here).dot(&along) / along.norm_squared();
-            place.go(original, (step, along.norm()));
+            place.go(original, step, along.norm());
         }
     }
 }

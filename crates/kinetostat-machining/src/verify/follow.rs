@@ -8,13 +8,12 @@ use kinetostat_program::{Corrected, Curve, Foot, Knowledge, Move, MoveKind, Nomi
 use nalgebra::Vector3;
 
 use crate::task::{NoMotion, RunError};
-use crate::verify::along::{Along, beside_mm};
-use crate::verify::followed::Followed;
+use crate::verify::along::{Along, Followed, beside_mm};
 use crate::verify::matched::Matched;
 use crate::verify::on_guide::{Search, are_same};
 use crate::verify::places::{End, ends, feet};
 use crate::verify::rapids::{NEAR_MM, ON_WAY_MM, Way, elsewhere, largest_shift_mm};
-use crate::verify::stretches::{Stretches, uncut};
+use crate::verify::stretches::{Guide, Stretches, uncut};
 
 /// An end this near to where the original goes on to another move lies there, mm; or if the program is farther from the guide, as
 /// near as that.
@@ -34,7 +33,7 @@ pub(crate) fn follow(
     let nominal = NominalPath::new(&guide_path).map_err(nothing)?;
     let shift_mm = largest_shift_mm(original, guide);
     let as_it_is = NominalPath::new(original).map_err(nothing)?;
-    let other = &*without_air(&as_it_is, &nominal, (other, shift_mm));
+    let other = &*without_air(&as_it_is, &nominal, other, shift_mm);
     let of_other = NominalPath::new(other).map_err(nothing)?;
     let ends = ends(&of_other);
     let stretches = Stretches::of(guide, &nominal);
@@ -44,7 +43,7 @@ pub(crate) fn follow(
             let foot = |end: &End| stretches.foot(end.move_index, end.shares[1], &end.position);
             ends.iter().map(foot).collect()
         }
-        false => feet(&nominal, (other, shift_mm), &ends)?,
+        false => feet(&nominal, other, shift_mm, &ends)?,
     };
     let far = |index: usize| feet[index].map_or(0.0, |foot| foot.distance_mm);
     let farthest = (0..ends.len()).max_by(|a, b| far(*a).total_cmp(&far(*b)));
@@ -70,12 +69,16 @@ pub(crate) fn follow(
         extra_cuts: Vec::new(),
     };
     along.go(&ends, &places);
-    let with = (&of_other, along.passes.as_slice());
-    let rapids = elsewhere((original, guide, &nominal), with, shift_mm);
+    let guide = Guide {
+        original,
+        written: guide,
+        nominal: &nominal,
+    };
+    let rapids = elsewhere(&guide, &of_other, &along.passes, shift_mm);
     let matched = Matched {
         largest_distance_mm: far(farthest),
         largest_distance_line: other.moves[ends[farthest].move_index].line,
-        uncut: uncut(original, (&nominal, guide), (&along.covered, near_mm)),
+        uncut: uncut(&guide, &along.covered, near_mm),
         rapids,
         extra_cuts: along.extra_cuts,
         ..Matched::default()
@@ -99,7 +102,8 @@ fn usual_distance_mm(feet: &[Option<Foot>]) -> f64 {
 fn without_air<'a>(
     original: &NominalPath<'_>,
     nominal: &NominalPath<'_>,
-    (other, shift_mm): (&'a Path, f64),
+    other: &'a Path,
+    shift_mm: f64,
 ) -> Cow<'a, Path> {
     let near_mm = NEAR_MM + shift_mm;
     let rapids = Starts::of(original.path(), |m| m.kind == MoveKind::Rapid);

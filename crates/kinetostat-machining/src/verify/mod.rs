@@ -15,7 +15,6 @@ mod along;
 mod conditions;
 mod exact;
 mod follow;
-mod followed;
 mod matched;
 mod on_guide;
 mod places;
@@ -30,20 +29,19 @@ use kinetostat_program::{
 use nalgebra::UnitQuaternion;
 
 use crate::load::law::CornerLoad;
-use crate::run::checked::Checked;
 use crate::run::conclude::{Run, conclude};
-use crate::run::corner_steps::by_the_other_reading;
-use crate::run::force_band::force_band;
+use crate::run::other_load::{by_the_other_reading, force_band};
 use crate::run::places::places;
 use crate::run::points::solve;
 use crate::run::preparation::Preparation;
 use crate::run::sites::of_written::sites_of_written;
+use crate::run::summary::Checked;
 use crate::run::way_out::with_way_out;
 use crate::task::{RunError, Task};
+use crate::verify::along::Followed;
 use crate::verify::conditions::{conditions, cuts};
 use crate::verify::exact::exact;
 use crate::verify::follow::follow;
-use crate::verify::followed::Followed;
 use crate::warning::WarningCode;
 use crate::watch::Watch;
 
@@ -64,7 +62,7 @@ pub struct Verified {
 ///
 /// ```no_run
 /// # fn with(task: &kinetostat_machining::Task<'_>, other: &kinetostat_program::Path) -> Result<(), kinetostat_machining::RunError> {
-/// let verified = kinetostat_machining::verify_program(task, (other, b""), &kinetostat_machining::Unwatched)?;
+/// let verified = kinetostat_machining::verify_program(task, other, b"", &kinetostat_machining::Unwatched)?;
 /// let off_mm = verified.run.result.summary.max_position_error_after_mm;
 /// # let _ = off_mm; Ok(())
 /// # }
@@ -74,15 +72,17 @@ pub struct Verified {
 /// [`RunError::Elsewhere`] where it does not go where the original goes; else as [`crate::compensate_program`].
 pub fn verify_program(
     task: &Task<'_>,
-    (other, bytes): (&Path, &[u8]),
+    other: &Path,
+    bytes: &[u8],
     watch: &dyn Watch,
 ) -> Result<Verified, RunError> {
-    verified(task, (other, bytes), watch).map_err(|error| with_way_out(task, error))
+    verified(task, other, bytes, watch).map_err(|error| with_way_out(task, error))
 }
 
 fn verified(
     task: &Task<'_>,
-    (other, bytes): (&Path, &[u8]),
+    other: &Path,
+    bytes: &[u8],
     watch: &dyn Watch,
 ) -> Result<Verified, RunError> {
     let prepared = Preparation::of_correction(task, None, watch)?;
@@ -99,7 +99,7 @@ fn verified(
     matched.cuts = both.iter().map(|cut| cut.moves).collect();
     matched.turned = turned_most(task.path(), other, &pieces);
     let backward_mm = task.writing.backward_step_mm;
-    let written = as_written(task.path(), (other, bytes), pieces, backward_mm);
+    let written = as_written(task.path(), other, bytes, pieces, backward_mm);
     let (load, how) = (&prepared.load.acting, prepared.solving(true));
     let sites = || sites_of_written(task, load, &written);
     // A place where the program is worse than the original is a finding here.
@@ -153,7 +153,8 @@ fn guide(
 /// The other program as one that was written from the original; steps that go backwards by more than `backward_mm` are counted.
 fn as_written(
     original: &Path,
-    (other, bytes): (&Path, &[u8]),
+    other: &Path,
+    bytes: &[u8],
     followed: Vec<Followed>,
     backward_mm: f64,
 ) -> Corrected {

@@ -68,7 +68,7 @@ impl Search<'_> {
         let mut places = found.clone();
         for (index, place) in places.iter_mut().enumerate() {
             if let Some(place) = place
-                && let Some([from, to]) = self.lone_turn(index, (ends, &found))
+                && let Some([from, to]) = self.lone_turn(index, ends, &found)
             {
                 (place.arrives_mm, place.leaves_mm) = (from, to);
             }
@@ -97,11 +97,7 @@ impl Search<'_> {
     }
 
     /// The turn of the load in which this end lies alone: the program makes no step there, and the load turns at one place of it.
-    fn lone_turn(
-        &self,
-        index: usize,
-        (ends, found): (&[End], &[Option<OnGuide>]),
-    ) -> Option<[f64; 2]> {
+    fn lone_turn(&self, index: usize, ends: &[End], found: &[Option<OnGuide>]) -> Option<[f64; 2]> {
         let own = found[index]?;
         let [from, to] = self
             .stretches

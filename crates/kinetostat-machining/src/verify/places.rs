@@ -66,7 +66,8 @@ const LEAPS: usize = 8;
 /// More than a few are.
 pub(crate) fn feet(
     guide: &NominalPath<'_>,
-    (other, shift_mm): (&Path, f64),
+    other: &Path,
+    shift_mm: f64,
     ends: &[End],
 ) -> Result<Vec<Option<Foot>>, RunError> {
     let points: Vec<Vector3<f64>> = ends.iter().map(|end| end.position).collect();
@@ -76,7 +77,7 @@ pub(crate) fn feet(
             .iter()
             .map(|point| guide.nearest_within(point, window_mm))
             .collect();
-        let found = match widened(guide, &points, (&mut near, window_mm)) {
+        let found = match widened(guide, &points, &mut near, window_mm) {
             // Nobody is asked for an order of points many of which are nowhere.
             Err(lost) => Err((lost, WhyLeftOut::BeyondWindow)),
             Ok(()) => ordered(ends, near, window_mm, |k| {
@@ -161,7 +162,8 @@ fn ordered(
 fn widened(
     guide: &NominalPath<'_>,
     points: &[Vector3<f64>],
-    (near, window_mm): (&mut [Vec<Foot>], f64),
+    near: &mut [Vec<Foot>],
+    window_mm: f64,
 ) -> Result<(), usize> {
     let lost: Vec<usize> = (0..near.len()).filter(|k| near[*k].is_empty()).collect();
     let [.., widest_mm] = WINDOWS_MM;

@@ -5,6 +5,7 @@ use kinetostat_program::{Corrected, Knowledge, Move, MoveKind, NominalPath, Path
 use nalgebra::Vector3;
 
 use crate::verify::matched::RapidElsewhere;
+use crate::verify::stretches::Guide;
 
 /// Rapids nearer than this are the same, mm, beside what corrections shift them by: clearances are larger.
 pub(crate) const NEAR_MM: f64 = 1.0;
@@ -70,11 +71,14 @@ fn between_passes<'p>(
 /// Rapids of the other program that differ from those of the original; `passes` are the places on the guide at which the
 /// passes of the other program begin and end.
 pub(crate) fn elsewhere(
-    (original, guide, nominal): (&Path, &Corrected, &NominalPath<'_>),
-    (other, passes): (&NominalPath<'_>, &[[Reached; 2]]),
+    guide: &Guide<'_>,
+    other: &NominalPath<'_>,
+    passes: &[[Reached; 2]],
     shift_mm: f64,
 ) -> Vec<RapidElsewhere> {
-    let of_original = between_passes(&original.moves, nominal, |i| guide.pieces[i].move_index);
+    let nominal = guide.nominal;
+    let of_piece = |piece: usize| guide.written.pieces[piece].move_index;
+    let of_original = between_passes(&guide.original.moves, nominal, of_piece);
     let of_other = between_passes(&other.path().moves, other, |i| i);
     let known = nominal.passes();
     let slack_mm = 0.05 + shift_mm;

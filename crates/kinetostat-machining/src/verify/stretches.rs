@@ -211,14 +211,27 @@ pub(crate) const LEAST_MM: f64 = 0.05;
 /// of ends; or twice the distance of the program from its guide.
 const LEAST_INSIDE_MM: f64 = 0.002;
 
+/// The compensated original, along which another program is followed.
+pub(crate) struct Guide<'a> {
+    pub(crate) original: &'a Path,
+    pub(crate) written: &'a Corrected,
+    /// The path as it was written.
+    pub(crate) nominal: &'a NominalPath<'a>,
+}
+
+impl Guide<'_> {
+    /// Line of the original at a length along the guide.
+    fn line(&self, along_mm: f64) -> usize {
+        let (index, _) = self.nominal.at_length(along_mm);
+        let piece = &self.written.pieces[self.nominal.pieces()[index].move_index];
+        self.original.moves[piece.move_index].line
+    }
+}
+
 /// The parts of the guide that no pass of the program covers; `covered` are the lengths along the guide at which each begins and ends,
 /// in their order, and `near_mm` is how near the program usually is to the guide.
-pub(crate) fn uncut(
-    original: &Path,
-    guide: (&NominalPath<'_>, &Corrected),
-    (covered, near_mm): (&[[f64; 2]], f64),
-) -> Vec<Uncut> {
-    let (nominal, _) = guide;
+pub(crate) fn uncut(guide: &Guide<'_>, covered: &[[f64; 2]], near_mm: f64) -> Vec<Uncut> {
+    let nominal = guide.nominal;
     let inside_mm = LEAST_INSIDE_MM.max(2.0 * near_mm).min(LEAST_MM);
     let is_inside = |from: f64, to: f64| {
         nominal.passes().iter().any(|pass| {
@@ -240,16 +253,9 @@ pub(crate) fn uncut(
             // Just inside: at a corner two lines meet.
             let inside = 0.5 * LEAST_MM.min(to - from);
             Uncut {
-                lines: [from + inside, to - inside].map(|at| line(original, guide, at)),
+                lines: [from + inside, to - inside].map(|at| guide.line(at)),
                 length_mm: to - from,
             }
         })
         .collect()
-}
-
-/// Line of the original at a length along the guide.
-fn line(original: &Path, (nominal, written): (&NominalPath<'_>, &Corrected), along: f64) -> usize {
-    let (index, _) = nominal.at_length(along);
-    let piece = &written.pieces[nominal.pieces()[index].move_index];
-    original.moves[piece.move_index].line
 }

@@ -1,6 +1,5 @@
 //! Deviations along the path: outliers, smoothing, and what the points cannot tell.
 
-mod figures;
 mod kernel;
 mod measure;
 mod on_lines;
@@ -9,10 +8,9 @@ mod piece_means;
 mod stations;
 mod unseen;
 
-pub use figures::DeviationFigures;
 pub use kernel::{Kernel, Smoothed};
 pub(crate) use measure::smoothed_along;
-pub use measure::{MeasureSettings, Measurement, Register, measure};
+pub use measure::{DeviationFigures, MeasureSettings, Measurement, Register, measure};
 pub use on_lines::{OnLines, on_lines};
 pub use outliers::Outlier;
 pub use piece_means::PieceMean;

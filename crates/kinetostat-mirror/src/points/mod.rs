@@ -1,8 +1,6 @@
 //! Measured points, from CSV or from the path of a second program.
 
 mod read;
-mod same;
-mod sampled;
 mod set;
 
 pub use set::{MeasuredPoint, MeasuredPoints};

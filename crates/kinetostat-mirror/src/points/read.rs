@@ -52,8 +52,8 @@ impl MeasuredPoints {
                     record.len()
                 ))));
             }
-            let place = (points.len() + 1, number);
-            let point = point(found, &record, place).map_err(at)?;
+            let row = points.len() + 1;
+            let point = point(found, &record, row, number).map_err(at)?;
             possible(&point).map_err(at)?;
             points.push(point);
             for (index, unit_mm) in &found.axes {
@@ -105,7 +105,8 @@ fn of_deviation(sigma: f64, unit_mm: f64) -> Result<f64, MirrorError> {
 fn point(
     columns: &Columns,
     record: &csv::StringRecord,
-    (row, line): (usize, usize),
+    row: usize,
+    line: usize,
 ) -> Result<MeasuredPoint, MirrorError> {
     let number = |name: &str, index: usize| {
         let cell = record.get(index).unwrap_or_default().trim();

@@ -1,6 +1,8 @@
-//! Points where the tool was measured.
+//! Points where the tool was measured, or those of the path of a second program.
 
+use kinetostat_program::{NominalPath, Path};
 use nalgebra::Vector3;
+use sha2::{Digest, Sha256};
 
 use crate::error::MirrorError;
 
@@ -147,5 +149,83 @@ pub(crate) fn possible(point: &MeasuredPoint) -> Result<(), MirrorError> {
             point.weight,
             1.0 / MOST_WEIGHT
         ))),
+    }
+}
+
+/// Units per mm to which points are rounded: no measurement is finer than a nanometre, and units of a file round
+/// below it.
+const IN_MM: f64 = 1e6;
+
+impl MeasuredPoints {
+    /// SHA-256 of the places in whole nanometres, sorted: the same for two files of the same points, whatever their order,
+    /// spacing, remarks and units.
+    ///
+    /// ```
+    /// use kinetostat_mirror::MeasuredPoints;
+    ///
+    /// let hash = |text| MeasuredPoints::read("trial.csv", text).map(|points| points.sha256());
+    /// let one = hash("x_mm,y_mm,z_mm\n0,0,0\n1,0,0\n2,0.5,0\n")?;
+    /// let same = hash("# again\nz_mm; y_um; x_m\n\n 0; 500; 0.002\n-0; 0; 0.001\n0.0; 0; 0\n")?;
+    /// let other = hash("x_mm,y_mm,z_mm\n0,0,0\n1,0,0\n2,0.501,0\n")?;
+    /// assert!(one == same && one != other);
+    /// # Ok::<(), kinetostat_mirror::MirrorError>(())
+    /// ```
+    #[must_use]
+    pub fn sha256(&self) -> String {
+        let places = self.points().iter().map(|point| {
+            let whole = point.position_mm.map(|mm| (mm * IN_MM).round() as i64);
+            [whole.x, whole.y, whole.z]
+        });
+        let mut places: Vec<[i64; 3]> = places.collect();
+        places.sort_unstable();
+        let mut hash = Sha256::new();
+        for axis in places.iter().flatten() {
+            hash.update(axis.to_le_bytes());
+        }
+        let hash = hash.finalize();
+        hash.iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+/// Maximum number of points: more are of no use and fill the memory.
+const MOST: f64 = 1e7;
+
+impl MeasuredPoints {
+    /// Points along the feed moves of a second program: one at each end of a move, and between them no farther apart than the
+    /// spacing.
+    ///
+    /// ```
+    /// use kinetostat_mirror::MeasuredPoints;
+    /// use kinetostat_program::{Program, ReadOptions, interpret};
+    ///
+    /// let program = Program::read("G21 G90\nG0 X0 Y0 Z0\nG1 X10 F300\nG1 Y1\n")?;
+    /// let path = interpret(&program, &ReadOptions::default())?;
+    /// let points = MeasuredPoints::along(&path, 5.0)?;
+    /// assert_eq!(points.points().len(), 4);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A program without a feed move that has a length; a spacing that is not positive, or of more than 1e7 points.
+    pub fn along(path: &Path, spacing_mm: f64) -> Result<Self, MirrorError> {
+        let nominal = NominalPath::new(path)?;
+        let wanted = nominal.length_mm() / spacing_mm;
+        if !(spacing_mm > 0.0 && wanted <= MOST) {
+            return Err(MirrorError::new(format!(
+                "a point every {spacing_mm} mm along {} mm; expected a spacing above 0 and at most {MOST} points",
+                nominal.length_mm()
+            )));
+        }
+        let mut positions = Vec::new();
+        let mut last_pass = None;
+        for piece in nominal.pieces() {
+            if last_pass.replace(piece.pass) != Some(piece.pass) {
+                positions.push(nominal.motion(piece).point(0.0));
+            }
+            let parts = (piece.length_mm / spacing_mm).ceil().max(1.0) as usize;
+            let shares = (1..=parts).map(|part| part as f64 / parts as f64);
+            positions.extend(shares.map(|share| nominal.motion(piece).point(share)));
+        }
+        Self::at(&positions)
     }
 }

@@ -21,15 +21,12 @@
 
 mod candidates;
 mod closest;
-mod everywhere;
-mod extent;
-mod horn;
 mod motion;
 mod search;
 mod starts;
 
 pub use candidates::ToldBy;
 pub use closest::RegistrationOptions;
-pub(crate) use extent::of_the_same_size;
+pub(crate) use closest::of_the_same_size;
 pub use motion::{FreeMotion, Motion};
 pub use search::{Registration, register};

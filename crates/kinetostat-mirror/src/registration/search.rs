@@ -15,12 +15,9 @@ use crate::error::MirrorError;
 use crate::number::larger;
 use crate::points::{MeasuredPoint, MeasuredPoints};
 use crate::registration::candidates::{Candidate, ToldBy, chosen};
-use crate::registration::closest::{Closest, RegistrationOptions};
-use crate::registration::everywhere::everywhere;
-use crate::registration::extent::of_the_same_size;
-use crate::registration::horn::{Pair, closest_motion};
-use crate::registration::motion::{FreeMotion, Motion};
-use crate::registration::starts::starts;
+use crate::registration::closest::{Closest, RegistrationOptions, of_the_same_size};
+use crate::registration::motion::{FreeMotion, Motion, Pair, closest_motion};
+use crate::registration::starts::{everywhere, starts};
 
 /// Points by which motions are judged; all of them take part in the end.
 const JUDGED: usize = 1000;
@@ -98,7 +95,7 @@ pub fn register(
     of_the_same_size(nominal, points, None)?;
     let points = points.points();
     let judged = some_of(points, JUDGED);
-    let candidates = candidates((nominal, options), points, &judged);
+    let candidates = candidates(nominal, options, points, &judged);
     let without_scale = RegistrationOptions {
         with_scale: false,
         ..options
@@ -109,7 +106,7 @@ pub fn register(
         next.map_or_else(Vec::new, |next| next.free)
     };
     let found = chosen(nominal, &judged, &candidates, &free)?.and_then(|(motion, told_by)| {
-        let found = refine(nominal, points, motion, (options, &[false, true], FINE[1]))?;
+        let found = refine(nominal, points, motion, options, &[false, true], FINE[1])?;
         Some(Registration { told_by, ..found })
     });
     found.ok_or_else(|| {
@@ -127,7 +124,8 @@ fn some_of(points: &[MeasuredPoint], most: usize) -> Vec<MeasuredPoint> {
 
 /// Motions from all starts. Points that lie on the path about where they are need not be sought all over it.
 fn candidates(
-    (nominal, options): (&NominalPath<'_>, RegistrationOptions),
+    nominal: &NominalPath<'_>,
+    options: RegistrationOptions,
     points: &[MeasuredPoint],
     judged: &[MeasuredPoint],
 ) -> Vec<Candidate> {
@@ -139,7 +137,7 @@ fn candidates(
     };
     let counting = options.counting(false);
     let candidate = |start: Motion, near: bool| {
-        let motion = follow((nominal, options), &following, start)?;
+        let motion = follow(nominal, options, &following, start)?;
         let closest = Closest::of(nominal, judged, &motion, counting)?;
         Some(Candidate {
             motion,
@@ -188,7 +186,8 @@ fn are_different(points: &[MeasuredPoint]) -> Result<(), MirrorError> {
 
 /// Follows a start by closest points, then across the path.
 fn follow(
-    (nominal, options): (&NominalPath<'_>, RegistrationOptions),
+    nominal: &NominalPath<'_>,
+    options: RegistrationOptions,
     points: &[MeasuredPoint],
     start: Motion,
 ) -> Option<Motion> {
@@ -208,7 +207,7 @@ fn follow(
         }
         (motion, closest) = (next, nearer);
     }
-    let found = refine(nominal, points, motion, (options, &[false], FINE[0]))?;
+    let found = refine(nominal, points, motion, options, &[false], FINE[0])?;
     let refined = Closest::of(nominal, points, &found.motion, counting)?;
     Some(match refined.left_mm < closest.left_mm {
         true => found.motion,
@@ -221,7 +220,9 @@ fn refine(
     nominal: &NominalPath<'_>,
     points: &[MeasuredPoint],
     start: Motion,
-    (options, turns, most): (RegistrationOptions, &[bool], usize),
+    options: RegistrationOptions,
+    turns: &[bool],
+    most: usize,
 ) -> Option<Registration> {
     let mut motion = start;
     let (mut steps, mut at_rest, mut free) = (0, false, Vec::new());

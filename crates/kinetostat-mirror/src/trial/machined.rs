@@ -75,21 +75,24 @@ impl Seen {
     ) -> Self {
         let smoothing_mm = before.smoothing_mm;
         let places = now.iter().filter_map(|mean| {
-            let own = (mean.stretch, mean.along_mm);
-            let sent = between_stations(stations, before.deviation_mm, own) * before.relaxation;
+            let (stretch, along_mm) = (mean.stretch, mean.along_mm);
+            let there = between_stations(stations, before.deviation_mm, stretch, along_mm);
+            let sent = there * before.relaxation;
             Place::of(mean, before.means, sent, smoothing_mm)
         });
         Self::in_places(
             &places.collect::<Vec<_>>(),
             before.means,
-            (scatter_mm, smoothing_mm),
+            scatter_mm,
+            smoothing_mm,
         )
     }
 
     fn in_places(
         places: &[Place<'_>],
         before: &[PieceMean],
-        (scatter_mm, smoothing_mm): (f64, f64),
+        scatter_mm: f64,
+        smoothing_mm: f64,
     ) -> Self {
         let of_all = |one: &dyn Fn(&Place<'_>) -> f64| places.iter().map(one).sum::<f64>();
         let sent_square = of_all(&|p| p.weight * p.sent_mm.norm_squared());
@@ -238,7 +241,7 @@ pub(crate) fn passed(
 ) -> Vec<Vector3<f64>> {
     let at = |point: &AlignedPoint| {
         let stretch = stations.stretch_of(point.piece);
-        let there = between_stations(stations, deviation_mm, (stretch, point.along_mm));
+        let there = between_stations(stations, deviation_mm, stretch, point.along_mm);
         AlignedPoint {
             deviation_mm: there - point.tangent * point.tangent.dot(&there),
             ..*point
@@ -259,7 +262,8 @@ pub(crate) fn passed(
 pub(crate) fn between_stations(
     stations: &Stations,
     at_stations: &[Vector3<f64>],
-    (stretch, along_mm): (usize, f64),
+    stretch: usize,
+    along_mm: f64,
 ) -> Vector3<f64> {
     let along = stations.along_mm();
     let own = &stations.stretches()[stretch].stations;

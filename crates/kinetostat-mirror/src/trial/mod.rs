@@ -2,13 +2,11 @@
 
 mod convergence;
 mod field;
-mod joined;
 mod machined;
 mod state;
 mod taking;
 
 pub use convergence::{Convergence, bound_on_relaxation};
 pub use field::{MirrorField, SumOfFields};
-pub use state::{Averaging, Repeatability, floor_mm};
-pub use state::{MirrorState, Outcome};
+pub use state::{Averaging, MirrorState, Outcome, Repeatability, floor_mm};
 pub use taking::{MeasuredFile, Trial};

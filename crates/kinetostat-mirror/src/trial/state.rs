@@ -172,7 +172,7 @@ impl MirrorState {
         relaxation: f64,
         repeatability: Option<Repeatability>,
     ) -> Result<Outcome, MirrorError> {
-        self.taken((nominal, measured), relaxation, repeatability, false)
+        self.taken(nominal, measured, relaxation, repeatability, false)
     }
 
     /// Variant of [`Self::take`] for a measured program that is the last one for certain: measurements that show nothing of its
@@ -187,12 +187,13 @@ impl MirrorState {
         relaxation: f64,
         repeatability: Option<Repeatability>,
     ) -> Result<Outcome, MirrorError> {
-        self.taken((nominal, measured), relaxation, repeatability, true)
+        self.taken(nominal, measured, relaxation, repeatability, true)
     }
 
     fn taken(
         &mut self,
-        (nominal, measured): (&NominalPath<'_>, &[(MeasuredFile, Measurement)]),
+        nominal: &NominalPath<'_>,
+        measured: &[(MeasuredFile, Measurement)],
         relaxation: f64,
         repeatability: Option<Repeatability>,
         was_run: bool,
@@ -261,7 +262,7 @@ impl MirrorState {
                 &means,
                 scatter.fold(last.figures.scatter_mm, larger),
             );
-            may_show_the_correction((measured, &self.trials), &seen, was_run)
+            may_show_the_correction(measured, &self.trials, &seen, was_run)
         });
         let shows_correction = shows_correction.transpose()?;
         let outcome = match (floor, convergence) {

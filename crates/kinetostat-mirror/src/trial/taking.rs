@@ -37,7 +37,8 @@ pub(crate) fn are_new(
 /// Checks that measurements may be of the program with the last correction: those of the program without it would have it corrected
 /// twice. Returns true if they show it. Measurements of a program that `was_run` for certain are not refused.
 pub(crate) fn may_show_the_correction(
-    (measured, trials): (&[(MeasuredFile, Measurement)], &[Trial]),
+    measured: &[(MeasuredFile, Measurement)],
+    trials: &[Trial],
     seen: &Seen,
     was_run: bool,
 ) -> Result<bool, MirrorError> {

@@ -3,8 +3,7 @@
 use kinetostat::{Mechanism, MotionKind};
 use nalgebra::{DMatrix, DVector};
 
-use crate::elements::quantity::by_kind;
-use crate::elements::quantity::{DEG, MM, ReadResult, choice, choices, forbid, need};
+use crate::elements::quantity::{DEG, MM, ReadResult, by_kind, choice, choices, forbid, need};
 use crate::findings::{Findings, name};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::{
@@ -213,8 +212,9 @@ fn rows(
                 "one axis for each actuator; a share in another axis is written as coupled = [{ joint = ..., ratio = ... }]",
             );
         }
+        let mut shares = vec![0.0; names.len()];
         if let Some(unit) = findings.keep(own(&place, axis, kinds[joint])) {
-            map[(row, joint)] = unit.ratio;
+            shares[joint] = unit.ratio;
             offset[row] = unit.offset;
             axes.push(ControllerAxis {
                 name: axis.name.clone(),
@@ -222,16 +222,16 @@ fn rows(
                 unit: unit.unit,
             });
         }
-        let own = (row, joint);
         couplings(
             &place,
             &axis.coupled,
-            own,
+            joint,
             &kinds,
             names,
-            &mut map,
+            &mut shares,
             findings,
         );
+        map.row_mut(row).copy_from_slice(&shares);
     }
     if findings.errors.len() > before {
         return None;
@@ -239,14 +239,14 @@ fn rows(
     Some(Rows { axes, map, offset })
 }
 
-/// Shares of other joints in the axis of row and joint `own`.
+/// Shares of other joints in the axis of `joint`.
 fn couplings(
     place: &KeyPath,
     written: &[ControllerCoupling],
-    (row, joint): (usize, usize),
+    joint: usize,
     kinds: &[MotionKind],
     names: &[String],
-    map: &mut DMatrix<f64>,
+    shares: &mut [f64],
     findings: &mut Findings,
 ) {
     for (k, coupling) in written.iter().enumerate() {
@@ -254,7 +254,7 @@ fn couplings(
         let Some(other) = findings.keep(actuator(&place, &coupling.joint, names)) else {
             continue;
         };
-        if map[(row, other)] != 0.0 || other == joint {
+        if shares[other] != 0.0 || other == joint {
             findings.error(
                 &place.key("joint"),
                 format!(
@@ -266,7 +266,7 @@ fn couplings(
         } else if let Some(ratio) =
             findings.keep(share(&place, coupling, kinds[joint], kinds[other]))
         {
-            map[(row, other)] = ratio;
+            shares[other] = ratio;
         }
     }
 }

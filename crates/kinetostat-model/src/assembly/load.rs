@@ -180,7 +180,10 @@ fn on_platforms(
     own: &[usize],
 ) -> ReadResult<PlatformLoad> {
     let end = |k: usize, key: &str, written: &PlatformPoint| {
-        Ok((own[k], point(&place.key(key), written)?))
+        Ok(Anchor::on_platform(
+            own[k],
+            point(&place.key(key), written)?,
+        ))
     };
     let between = |from: &PlatformPoint, to: &PlatformPoint, law| {
         Ok(PlatformLoad::strut(

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use kinetostat::Platform;
 
-use crate::elements::body::{inertia, mass};
+use crate::elements::part::{inertia, mass};
 use crate::elements::placement::pose;
 use crate::elements::quantity::{MM, choices, vector};
 use crate::findings::{Findings, name};

@@ -1,18 +1,19 @@
-//! Sections and stiffness matrices: from what is written to SI.
+//! Sections, stiffness matrices and springs with a knee: from what is written to SI.
 
 use std::collections::BTreeMap;
 
-use kinetostat::BeamSection;
+use kinetostat::model::{BilinearLaw, SpringLaw};
 use kinetostat::spatial::turn_matrix;
+use kinetostat::{BeamSection, MotionKind};
 use kinetostat_links::Shear;
 use nalgebra::{Matrix6, Unit, Vector3};
 
 use crate::elements::placement::{direction, frame_along};
-use crate::elements::quantity::{MM, ReadResult, choices, forbid, positive};
+use crate::elements::quantity::{Choice, DEG, MM, ReadResult, by_kind, choices, forbid, positive};
 use crate::elements::section::section;
 use crate::elements::shape::{Beam, far_end, root};
 use crate::problem::{Finding, KeyPath};
-use crate::schema::{Document, Section, ShearWord, Spring6, Stiffness};
+use crate::schema::{Document, Knee, Section, ShearWord, Spring6, Stiffness};
 use crate::text::hints::unknown;
 
 /// Sections and stiffnesses by name. `None`: described wrongly, and reported already.
@@ -333,4 +334,54 @@ pub(crate) fn elasticity(
     // The validity of a beam does not depend on its length.
     beam.cantilever(place, 1.0)?;
     Ok(Elasticity::Beam(Box::new(beam)))
+}
+
+/// The law of a spring of this stiffness (SI) up to its knee.
+pub(crate) fn knee_law(
+    place: &KeyPath,
+    kind: MotionKind,
+    stiffness: f64,
+    knee: &Knee,
+) -> ReadResult<SpringLaw> {
+    let positive = |what: &str, lengths: &[Choice<f64>], angles: &[Choice<f64>]| {
+        let keys = |choices: &[Choice<f64>]| {
+            let keys: Vec<&str> = choices.iter().map(|c| c.key).collect();
+            keys.join(" or ")
+        };
+        let right = match kind {
+            MotionKind::Prismatic => keys(lengths),
+            MotionKind::Revolute => keys(angles),
+        };
+        match by_kind(place, what, kind, lengths, angles)? {
+            Some(given) if given.value > 0.0 => Ok(given.value),
+            Some(given) => Err(Finding::new(
+                &place.key(given.key),
+                format!(
+                    "the {what} is {}, a number above zero is needed",
+                    given.value
+                ),
+                format!("correct '{}'", given.key),
+            )),
+            None => Err(Finding::new(
+                place,
+                format!("the {what} is missing"),
+                format!("write {right}"),
+            )),
+        }
+    };
+    let knee_at = positive(
+        "deflection at the knee",
+        &choices!(knee, (at_mm, MM), (at_m, 1.0)),
+        &choices!(knee, (at_deg, DEG), (at_rad, 1.0)),
+    )?;
+    let beyond = positive(
+        "stiffness beyond the knee",
+        &choices!(knee, (then_n_per_m, 1.0), (then_n_per_mm, 1.0 / MM)),
+        &choices!(knee, (then_n_m_per_rad, 1.0), (then_n_mm_per_rad, MM)),
+    )?;
+    Ok(SpringLaw::Bilinear(BilinearLaw {
+        stiffness,
+        beyond,
+        knee: knee_at,
+    }))
 }

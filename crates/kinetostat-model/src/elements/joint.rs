@@ -4,7 +4,7 @@
 use kinetostat::{ActuatorSpec, MotionKind, model::SpringLaw};
 use nalgebra::{DMatrix, Vector3};
 
-use crate::elements::knee;
+use crate::elements::elastic::knee_law;
 use crate::elements::part::Part;
 use crate::elements::placement::direction;
 use crate::elements::quantity::{
@@ -383,7 +383,7 @@ pub(crate) fn spring(place: &KeyPath, name: String, e: &SpringElement) -> ReadRe
     )?;
     let home = home.map_or(0.0, |h| h.value);
     let law = match &e.knee {
-        Some(knee) => knee::law(&place.key("knee"), kind, stiffness, knee)?,
+        Some(knee) => knee_law(&place.key("knee"), kind, stiffness, knee)?,
         None => SpringLaw::Linear(DMatrix::from_element(1, 1, stiffness)),
     };
     Ok(Part::Spring(name, kind, axis, law, [rest, home]))

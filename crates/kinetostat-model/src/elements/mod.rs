@@ -3,12 +3,9 @@
 //! Takes one table of a document and its place; gives parts for the core's builder, or a finding that says what is wrong
 //! and what to write. Knows no other element.
 
-pub(crate) mod body;
 pub(crate) mod damping;
 pub(crate) mod elastic;
-pub(crate) mod element;
 pub(crate) mod joint;
-pub(crate) mod knee;
 pub(crate) mod link;
 pub(crate) mod part;
 pub(crate) mod placement;
@@ -17,4 +14,3 @@ pub(crate) mod rotary;
 pub(crate) mod rotor;
 pub(crate) mod section;
 pub(crate) mod shape;
-pub(crate) mod workspace;

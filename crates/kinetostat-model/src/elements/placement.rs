@@ -1,11 +1,11 @@
-//! Poses and directions as a file writes them.
+//! Poses and directions as a file writes them, and corners of the workspace.
 
 use kinetostat::Pose;
 use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
-use crate::elements::quantity::{DEG, Given, MM, ReadResult, choices, pick, vector};
+use crate::elements::quantity::{DEG, Given, MM, ReadResult, choices, need, pick, vector};
 use crate::problem::{Finding, KeyPath};
-use crate::schema::{Axis, AxisName, Placement};
+use crate::schema::{Axis, AxisName, Document, Placement};
 
 /// Angles of an orientation are within a hundred full turns, rad. Degrees that are taken for rad are: an imported
 /// model says what looks like them.
@@ -233,3 +233,19 @@ pub(crate) fn written_pose(pose: &Pose) -> String {
     let turn = list(turn.map(f64::to_degrees).into(), 10);
     format!("home = {{ position_mm = [{position}], rotation_vector_deg = [{turn}] }}")
 }
+
+/// The workspace's corners.
+pub(crate) fn corners(document: &Document) -> ReadResult<Option<Corners>> {
+    let Some(w) = &document.workspace else {
+        return Ok(None);
+    };
+    let place = KeyPath::root().key("workspace");
+    let from = choices!(w, (corner_mm, MM), (corner_m, 1.0));
+    let to = choices!(w, (opposite_corner_mm, MM), (opposite_corner_m, 1.0));
+    let from = need(&place, "corner", &from)?.value;
+    let to = need(&place, "opposite corner", &to)?.value;
+    Ok(Some((from.into(), to.into())))
+}
+
+/// Two opposite corners, m.
+pub(crate) type Corners = (Vector3<f64>, Vector3<f64>);

@@ -14,7 +14,6 @@
 pub(crate) mod elements;
 mod list;
 mod resolve;
-mod tables;
 pub(crate) mod unit;
 pub(crate) mod walk;
 

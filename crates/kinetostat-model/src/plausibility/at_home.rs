@@ -1,9 +1,9 @@
 //! Frames of the parts of a limb with the machine at home, and loads of the weight on its joints.
 
 use kinetostat::linalg::SingularValues;
-use kinetostat::number::larger;
-use kinetostat::number::smaller;
-use kinetostat::{Chain, Mechanism, MotionKind, Pose, model::Element};
+use kinetostat::model::Element;
+use kinetostat::number::{larger, smaller};
+use kinetostat::{Chain, Mechanism, MotionKind, Pose};
 use nalgebra::{DMatrix, Translation3, UnitQuaternion, Vector3};
 
 /// Poses in the chain's base before every element and at the end, at home.

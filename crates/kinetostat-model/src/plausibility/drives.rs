@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use kinetostat::number::short;
 use kinetostat::{MotionKind, model::SpringLaw};
 
-use crate::plausibility::limb::LimbCheck;
+use crate::plausibility::LimbCheck;
 use crate::problem::{Finding, KeyPath};
 use crate::schema::Element;
 

@@ -3,14 +3,12 @@
 use kinetostat::number::{apart, larger, short};
 use kinetostat::{Chain, Mechanism, Pose};
 
-use crate::elements::placement::pose;
-use crate::elements::workspace::corners;
+use crate::elements::placement::{corners, pose};
+use crate::plausibility::LimbCheck;
 use crate::plausibility::at_home::{conditioning, frames, machine_size};
-use crate::plausibility::limb::LimbCheck;
 use crate::plausibility::link_matrix::check as check_link_matrices;
 use crate::plausibility::masses::{next_to_nothing, no_body};
-use crate::plausibility::numbers::of_numbers;
-use crate::plausibility::tree::numbers;
+use crate::plausibility::numbers::{numbers, of_numbers};
 use crate::problem::{Finding, KeyPath};
 use crate::schema::Document;
 

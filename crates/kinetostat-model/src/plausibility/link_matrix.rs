@@ -1,8 +1,7 @@
 //! Signs that a 6 x 6 matrix is not the stiffness of a link at its far end: a nearly free direction, couplings of the
 //! wrong end, a size out of proportion.
 
-use kinetostat::number::larger;
-use kinetostat::number::short;
+use kinetostat::number::{larger, short};
 use nalgebra::{Matrix6, Vector6};
 
 use crate::problem::{Finding, KeyPath};

@@ -1,10 +1,11 @@
 //! Bodies beside the other bodies of their limb, beside the links that carry them, and beside the machine.
 
+use kinetostat::model::Body;
 use kinetostat::number::short;
 use nalgebra::Matrix3;
 
+use crate::plausibility::LimbCheck;
 use crate::plausibility::at_home::{farthest, reach};
-use crate::plausibility::limb::LimbCheck;
 use crate::problem::{Finding, KeyPath};
 
 /// An inertia that no body has: a principal moment is larger than the sum of the others.
@@ -30,12 +31,9 @@ pub(crate) fn no_body(place: &KeyPath, name: &str, inertia: &Matrix3<f64>) -> Op
 }
 
 /// An inertia without a mass: no body turns hard and weighs nothing.
-fn without_mass(
-    place: &KeyPath,
-    name: &str,
-    (mass, inertia): (f64, &Matrix3<f64>),
-) -> Option<Finding> {
-    (mass == 0.0 && inertia.amax() > 0.0).then(|| {
+fn without_mass(place: &KeyPath, body: &Body) -> Option<Finding> {
+    let name = &body.name;
+    (body.mass == 0.0 && body.inertia.amax() > 0.0).then(|| {
         Finding::new(
             place,
             format!("the body '{name}' has an inertia and no mass"),
@@ -68,8 +66,7 @@ impl LimbCheck<'_> {
             let place = self.place(&body.name, &["inertia_kg_m2"]);
             warnings.extend(no_body(&place, &body.name, &body.inertia));
             let place = self.place(&body.name, &["mass_kg"]);
-            let both = (body.mass, &body.inertia);
-            warnings.extend(without_mass(&place, &body.name, both));
+            warnings.extend(without_mass(&place, body));
             let what = format!("the body '{}'", body.name);
             warnings.extend(next_to_nothing(&place, &what, body.mass));
         }
@@ -185,7 +182,7 @@ impl LimbCheck<'_> {
         let chain = &limbs[self.limb].nominal;
         // If other limbs carry too, a light bar may lead to a heavy arm.
         let only_limb = limbs.iter().filter(|l| l.to == limbs[self.limb].to).count() == 1;
-        let mut bodies: Vec<&kinetostat::model::Body> = chain.bodies().iter().collect();
+        let mut bodies: Vec<&Body> = chain.bodies().iter().collect();
         bodies.retain(|b| b.mass > 0.0);
         bodies.sort_by_key(|b| b.node);
         for (i, body) in bodies.iter().enumerate() {

@@ -1,14 +1,15 @@
-//! Each number as it is written, under the unit of its key.
+//! Each number as it is written, under the unit of its key, from one traversal for documents, which have no text, and for texts,
+//! whose numbers know where they stand.
 
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
 use kinetostat::number::short;
+use serde_json::Value;
 use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::plausibility::tree::numbers;
-use crate::problem::Finding;
+use crate::problem::{Finding, KeyPath};
 use crate::schema::Document;
 
 /// Compares every number of a document with what its unit is used for.
@@ -138,4 +139,88 @@ pub fn looks_like_radians(x: f64) -> bool {
 fn share_of_pi(x: f64) -> String {
     let degrees = (x.to_degrees() / 15.0).round() * 15.0;
     format!("{degrees} degrees")
+}
+
+/// A value of a document or of a text.
+pub(crate) trait Tree: Sized {
+    /// The number that it is; none for tables, lists and words.
+    fn number(&self) -> Option<f64>;
+
+    /// Children in order, with their keys in a table, without in a list.
+    fn children(&self) -> Vec<(Option<&str>, &Self)>;
+}
+
+impl Tree for Value {
+    fn number(&self) -> Option<f64> {
+        self.as_f64()
+    }
+
+    fn children(&self) -> Vec<(Option<&str>, &Self)> {
+        match self {
+            Self::Object(map) => map.iter().map(|(k, v)| (Some(k.as_str()), v)).collect(),
+            Self::Array(list) => list.iter().map(|v| (None, v)).collect(),
+            _ => Vec::new(),
+        }
+    }
+}
+
+impl Tree for Spanned<DeValue<'_>> {
+    fn number(&self) -> Option<f64> {
+        match self.get_ref() {
+            DeValue::Float(number) => number.as_str().parse().ok(),
+            DeValue::Integer(number) => number.as_str().parse().ok(),
+            _ => None,
+        }
+    }
+
+    fn children(&self) -> Vec<(Option<&str>, &Self)> {
+        match self.get_ref() {
+            DeValue::Table(table) => table
+                .iter()
+                .map(|(k, v)| (Some(&**k.get_ref()), v))
+                .collect(),
+            DeValue::Array(list) => list.iter().map(|v| (None, v)).collect(),
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// A number of a tree.
+pub(crate) struct Number<'t, T> {
+    /// Key of the number, or of the list that contains it.
+    pub(crate) key: &'t str,
+    /// The path to it from the root.
+    pub(crate) place: KeyPath,
+    /// The value that holds it.
+    pub(crate) node: &'t T,
+    pub(crate) value: f64,
+}
+
+/// All numbers of a tree, in the order of its tables and lists.
+pub(crate) fn numbers<T: Tree>(root: &T) -> Vec<Number<'_, T>> {
+    let mut found = Vec::new();
+    collect(root, "", &KeyPath::root(), &mut found);
+    found
+}
+
+fn collect<'t, T: Tree>(
+    node: &'t T,
+    key: &'t str,
+    place: &KeyPath,
+    found: &mut Vec<Number<'t, T>>,
+) {
+    if let Some(value) = node.number() {
+        found.push(Number {
+            key,
+            place: place.clone(),
+            node,
+            value,
+        });
+    }
+    for (index, (own, child)) in node.children().into_iter().enumerate() {
+        match own {
+            Some(own) => collect(child, own, &place.key(own), found),
+            None => collect(child, key, &place.index(index), found),
+        }
+    }
 }

@@ -6,8 +6,8 @@ use kinetostat::{
     model::{Role, SpringLaw},
 };
 
+use crate::plausibility::LimbCheck;
 use crate::plausibility::at_home::moments;
-use crate::plausibility::limb::LimbCheck;
 use crate::problem::Finding;
 
 impl LimbCheck<'_> {

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::schema::elastic::{Section, Stiffness};
 use crate::schema::element::Element;
+use crate::schema::joint::DampingTable;
 use crate::schema::load::{LoadTable, PlatformLoadTable};
 use crate::schema::placement::{Axis, Placement};
-use crate::schema::vibration::DampingTable;
 
 /// The version of the format that this crate reads and writes.
 pub const SCHEMA_VERSION: u32 = 1;

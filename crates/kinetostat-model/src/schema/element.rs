@@ -4,7 +4,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::schema::knee::Knee;
+use crate::schema::joint::Knee;
 use crate::schema::{Axis, JointKind, PassiveKind, Placement, RotorTable, Spring6};
 
 /// One element of a chain.

@@ -8,10 +8,8 @@ mod document;
 mod elastic;
 mod element;
 mod joint;
-mod knee;
 pub(crate) mod load;
 mod placement;
-mod vibration;
 
 pub use document::{
     CarriesWord, ChainTable, ControllerAxisTable, ControllerCoupling, ControllerTable,
@@ -27,11 +25,9 @@ pub use element::{
     MassModelWord, NodeElement, ParallelogramElement, PassiveElement, RigidElement, Spring6Element,
     SpringElement,
 };
-pub use joint::{JointKind, PassiveKind};
-pub use knee::Knee;
+pub use joint::{DampingTable, JointKind, Knee, PassiveKind, RayleighTable, RotorTable};
 pub use load::{
     Anchor, ConstantTensionLoad, CounterweightLoad, GasSpringLoad, LoadTable, PlatformAxes,
     PlatformLoadTable, PlatformPoint, PlatformWrench, SpringLoad, WrenchAxes, WrenchLoad,
 };
 pub use placement::{Axis, AxisName, Placement};
-pub use vibration::{DampingTable, RayleighTable, RotorTable};

@@ -4,6 +4,5 @@
 //! and nothing of mechanics.
 
 pub(crate) mod check;
-pub(crate) mod file;
 pub(crate) mod hints;
 pub(crate) mod source;

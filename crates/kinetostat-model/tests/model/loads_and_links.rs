@@ -500,14 +500,18 @@ fn loads_on_platforms_are_the_core_s() {
     let zero = Vector3::zeros();
     let expected = [
         PlatformLoad::strut(
-            (0, vector![0.0, 0.0, 0.5]),
-            (2, vector![-0.2, 0.01, 0.04]),
+            Anchor::on_platform(0, vector![0.0, 0.0, 0.5]),
+            Anchor::on_platform(2, vector![-0.2, 0.01, 0.04]),
             linear,
         ),
-        PlatformLoad::strut((1, vector![-0.1, 0.0, 0.1]), (2, zero), gas),
         PlatformLoad::strut(
-            (1, zero),
-            (0, vector![0.0, 0.2, 0.9]),
+            Anchor::on_platform(1, vector![-0.1, 0.0, 0.1]),
+            Anchor::on_platform(2, zero),
+            gas,
+        ),
+        PlatformLoad::strut(
+            Anchor::on_platform(1, zero),
+            Anchor::on_platform(0, vector![0.0, 0.2, 0.9]),
             LengthLaw::Constant { tension: 80.0 },
         ),
         PlatformLoad::Wrench {

@@ -6,10 +6,7 @@
 //! and the best one is that of the whole program.
 
 mod findings;
-mod listed;
 mod looking;
-mod nowhere;
-mod starts;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -18,10 +15,9 @@ use rayon::prelude::*;
 
 use crate::answer::{Candidate, Evaluated, Placed};
 use crate::evaluate::{Evaluator, Question};
-use crate::maps::maps;
-use crate::refine::{Worth, refined};
+use crate::refine::refined;
 use crate::search::looking::Search;
-use crate::sensitivity::sensitivity;
+use crate::sensitivity::{maps, sensitivity};
 use crate::space::{Place, Space};
 
 pub use looking::Effort;
@@ -77,11 +73,11 @@ impl Search<'_, '_> {
         let mut worths = self.all_refined(starts, &active, FIRST_STEP);
         self.still_wanted()?;
         for _ in 0..ROUNDS {
-            let Some(best) = worths.first().filter(|best| best.1.figure().is_some()) else {
+            let Some(best) = worths.first().filter(|best| best.value.figure().is_some()) else {
                 break;
             };
-            let (found, telling) = self.candidate(&best.0);
-            let figure = best.1.figure().unwrap_or(f64::INFINITY);
+            let (found, telling) = self.candidate(&best.place);
+            let figure = best.value.figure().unwrap_or(f64::INFINITY);
             if found
                 .figure
                 .is_some_and(|all| all <= figure * (1.0 + AGREES))
@@ -99,11 +95,11 @@ impl Search<'_, '_> {
             }
             active.extend(new);
             active.sort_unstable();
-            let again = worths.iter().map(|(place, _)| {
-                let value = self.worth(place, &active);
-                (place.clone(), value)
+            let again = worths.iter().map(|before| Evaluated {
+                place: before.place.clone(),
+                value: self.worth(&before.place, &active),
             });
-            let again: Vec<Worth> = again.collect();
+            let again = again.collect();
             worths = self.all_refined(again, &active, NEXT_STEP);
             self.still_wanted()?;
         }
@@ -121,10 +117,13 @@ impl Search<'_, '_> {
         let mut placed = self.answer(listed, filling, centre, &active);
         if let Some(best) = placed.best.clone() {
             let at = |place: &Place| self.worth(place, &active);
-            let worth = (best.place.clone(), at(&best.place));
-            placed.sensitivity = sensitivity(space, &worth, &at);
+            let worth = Evaluated {
+                place: best.place.clone(),
+                value: at(&best.place),
+            };
+            placed.sensitivity = sensitivity(space, &worth, at);
             if self.effort.maps {
-                placed.maps = maps(space, &best.place, &at);
+                placed.maps = maps(space, &best.place, at);
             }
             placed.findings = self.findings(&placed, &best);
         } else {
@@ -165,12 +164,12 @@ impl Search<'_, '_> {
     }
 
     /// All refined, the best first.
-    fn all_refined(&self, starts: Vec<Worth>, active: &[usize], step: f64) -> Vec<Worth> {
+    fn all_refined(&self, starts: Vec<Evaluated>, active: &[usize], step: f64) -> Vec<Evaluated> {
         let worth = |place: &Place| self.worth(place, active);
         let found = starts.into_par_iter();
-        let found = found.map(|start| refined(self.space(), start, step, &worth));
-        let mut found: Vec<Worth> = found.collect();
-        found.sort_by(|a, b| a.1.order(&b.1));
+        let found = found.map(|start| refined(self.space(), start, step, worth));
+        let mut found: Vec<Evaluated> = found.collect();
+        found.sort_by(|a, b| a.value.order(&b.value));
         found
     }
 }

@@ -1,18 +1,16 @@
 //! The file of uncertainties: TOML, refused by name and line.
 
-mod load;
 mod rows;
 mod written;
 
 use kinetostat::Wrench;
 use kinetostat_model::{Model, ModelError};
 
-use crate::file::load::Load;
-use crate::file::written::{Reader, Written};
+use crate::file::written::{Load, Reader, Written};
 use crate::uncertain::{Uncertain, Uncertainties};
 
-pub use load::{CUTTING_PARTS, Source};
 pub use rows::SharedNumber;
+pub use written::{CUTTING_PARTS, Source};
 
 /// Content of a file of uncertainties.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,9 +7,8 @@ use kinetostat_machining::Limits;
 use kinetostat_model::{Model, ParameterKind};
 use serde_spanned::Spanned;
 
-use crate::distribution::Distribution;
-use crate::file::load::{Load, Source};
-use crate::file::written::{Pair, Reader, Row};
+use crate::draws::Distribution;
+use crate::file::written::{Load, Pair, Reader, Row, Source};
 use crate::uncertain::Uncertain;
 
 /// Largest spread of a length (m) and of an angle (rad): machines are built to micrometres or to tenths of a millimetre. Larger errors

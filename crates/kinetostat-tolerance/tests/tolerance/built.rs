@@ -1,7 +1,7 @@
 //! Machines built with other numbers than those of the drawing, their joints known from it: against the general engine posture by
 //! posture, and bit by bit against machines that are compiled one by one.
 
-use kinetostat::batch::{Batch, BatchEquilibrium, Details, Status};
+use kinetostat::batch::{Batch, BatchEquilibrium, Details, LoadedBatch, Status};
 use kinetostat::spatial::pose_residual;
 use kinetostat::{Mechanism, Pose, Wrench};
 use kinetostat_model::Model;
@@ -83,9 +83,11 @@ fn machines_with_other_numbers_answer_as_those_compiled_one_by_one() {
         let [more, less] = [0.7, -0.7].map(at);
         let [above, below] = [&more.0, &less.0].map(|m| drawn.built(m).expect("as drawn"));
         let plain = started.clone();
-        started
-            .go_along((&above, &more.1), (&below, &less.1), 1.4)
-            .expect("equilibria");
+        let [above, below] = [(&above, &more), (&below, &less)].map(|(batch, at)| LoadedBatch {
+            batch,
+            wrenches: &at.1,
+        });
+        started.go_along(above, below, 1.4).expect("equilibria");
         let mut found = BatchEquilibrium::default();
         let mut from_drawn = BatchEquilibrium::default();
         let mut from_plain = BatchEquilibrium::default();

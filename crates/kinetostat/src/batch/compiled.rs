@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 
-use crate::batch::buffers::Buffers;
 use crate::batch::machine::group::Places;
 use crate::batch::numbers::instruction_set::has_kernels;
 use crate::batch::plan::steps::Plan;
 use crate::batch::run::Job;
 use crate::batch::status::{Engine, NoKernel, Status};
-use crate::batch::table::BLOCK;
+use crate::batch::table::{BLOCK, Buffers};
 use crate::error::{Error, Result};
 use crate::machine::inverse::limb::LimbPosture;
 use crate::machine::posture::Posture;

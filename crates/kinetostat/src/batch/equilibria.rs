@@ -7,11 +7,12 @@ use crate::batch::limb::loaded::{ALONG_PATH, EXACT, FROM_DRAWN};
 use crate::batch::limb::shape::springs;
 use crate::batch::machine::group::{Places, Standing};
 use crate::batch::machine::kept;
+use crate::batch::machine::loaded::PlatformMass;
 use crate::batch::plan::steps::Plan;
 use crate::batch::run::{Answers, Job};
 use crate::batch::status::{Engine, Status};
 use crate::batch::table::{BLOCK, Table};
-use crate::chain::found_by::FoundBy;
+use crate::chain::residual::FoundBy;
 use crate::chain::system::System;
 use crate::compensation::target::target_under_load;
 use crate::error::{Error, Result};
@@ -490,7 +491,10 @@ impl Batch {
             Job::Loaded {
                 nominal,
                 actual,
-                body: (tool.centre_of_mass.into(), tool.mass),
+                body: PlatformMass {
+                    centre: tool.centre_of_mass.into(),
+                    mass: tool.mass,
+                },
                 gravity: self.mechanism.gravity().into(),
                 places: places.from(k * blocks * BLOCK),
                 wrenches: &wrenches[k * blocks * BLOCK..],

@@ -20,13 +20,11 @@
 //! is computed at once, too, far below what is written of it.
 
 mod assessed;
-mod buffers;
 mod commanded;
 mod compiled;
 mod equilibria;
 pub(crate) mod limb;
 pub(crate) mod machine;
-mod models;
 pub(crate) mod numbers;
 mod path;
 pub(crate) mod plan;
@@ -34,12 +32,10 @@ mod run;
 mod status;
 mod stiffness;
 mod table;
-mod targets;
 
-pub use commanded::Commanded;
+pub use commanded::{Commanded, LoadedBatch, over_machines};
 pub use compiled::Batch;
 pub use equilibria::{BatchEquilibrium, BatchTargets, Details, PostureStability};
-pub use models::over_machines;
 pub use path::AlongPath;
 pub use status::{Engine, NoKernel, Status};
 pub use stiffness::BatchStiffness;

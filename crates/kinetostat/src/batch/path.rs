@@ -15,8 +15,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::batch::assessed::{Way, numbers};
 use crate::batch::compiled::Batch;
-use crate::batch::equilibria::BatchEquilibrium;
-use crate::batch::equilibria::Details;
+use crate::batch::equilibria::{BatchEquilibrium, Details};
 use crate::batch::status::{Engine, Status};
 use crate::model::chain::Role;
 use crate::model::mechanism::Mechanism;

@@ -4,20 +4,19 @@ use std::sync::Arc;
 
 use pulp::{Simd, WithSimd};
 
-use crate::batch::buffers::Buffers;
 use crate::batch::limb::loaded::Precision;
 use crate::batch::limb::reach::{Joints, MOST_STEPS};
 use crate::batch::limb::shape::Shape;
 use crate::batch::limb::unloaded::ForwardPass;
 use crate::batch::machine::group::{Group, Places};
-use crate::batch::machine::loaded::{Machine, bounded};
+use crate::batch::machine::loaded::{Machine, PlatformMass, bounded};
 use crate::batch::numbers::instruction_set::InstructionSet;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::symmetric::Symmetric;
 use crate::batch::numbers::vectors::{carried, constant, select};
 use crate::batch::plan::steps::Plan;
 use crate::batch::status::Status;
-use crate::batch::table::BLOCK;
+use crate::batch::table::{BLOCK, Buffers};
 use crate::spatial::{Directions, Pose, Wrench};
 
 /// Task of one thread: as many postures as `status` has places.
@@ -50,7 +49,7 @@ pub(crate) enum Job<'a> {
     Loaded {
         nominal: &'a Arc<[Plan]>,
         actual: &'a Arc<[Plan]>,
-        body: ([f64; 3], f64),
+        body: PlatformMass,
         gravity: [f64; 3],
         places: Places<'a>,
         wrenches: &'a [Wrench],
@@ -114,7 +113,8 @@ impl WithSimd for Job<'_> {
                 status,
             } => unloaded(
                 simd,
-                (plans, buffers),
+                plans,
+                buffers,
                 places,
                 [stiffness, jacobian, commands],
                 status,
@@ -163,13 +163,13 @@ impl WithSimd for Job<'_> {
                         let wrench = group.wrench(simd, wrenches);
                         let start = match places {
                             Places::Joints { commands, each } => {
-                                machine.start_at_joints(simd, &group, (commands, each))
+                                machine.start_at_joints(simd, &group, commands, each)
                             }
                             Places::Poses(poses) | Places::Known { poses, .. }
                                 if along && first > from =>
                             {
                                 let place = group.target(simd, poses);
-                                machine.go_on(simd, (place, &wrench), directions)
+                                machine.go_on(simd, place, &wrench, directions)
                             }
                             Places::Known {
                                 poses,
@@ -180,8 +180,7 @@ impl WithSimd for Job<'_> {
                             } => {
                                 let target = group.target(simd, poses);
                                 let standing = standing.map(|s| (s, deviations));
-                                let known = (joints, standing, first);
-                                machine.start_with(simd, &group, target, known)
+                                machine.start_with(simd, &group, target, joints, standing, first)
                             }
                             Places::Poses(poses) => {
                                 machine.start_at(simd, group.target(simd, poses))
@@ -266,7 +265,7 @@ fn known<S: Simd>(simd: S, nominal: &[Plan], poses: &[Pose], joints: &mut [f64])
         let mut from = 0;
         for (plan, (forward, own)) in nominal.iter().zip(&mut limbs) {
             own.home(simd, plan, one);
-            let away = own.find(simd, plan, forward, &target, (MOST_STEPS, one));
+            let away = own.find(plan, forward, &target, MOST_STEPS, one);
             for numbers in [&mut own.commands, &mut own.passive] {
                 for x in numbers.iter_mut() {
                     *x = select(away, one * f64::NAN, *x);
@@ -302,7 +301,8 @@ struct Unloaded<S: Simd> {
 #[inline(always)]
 fn unloaded<S: Simd>(
     simd: S,
-    (plans, buffers): (&[Plan], &Buffers),
+    plans: &[Plan],
+    buffers: &Buffers,
     places: Places<'_>,
     [stiffness, jacobian, all_commands]: [&mut [f64]; 3],
     status: &mut [Status],

@@ -15,15 +15,15 @@
 
 use nalgebra::DMatrix;
 
-use crate::chain::found_by::FoundBy;
-use crate::chain::residual::{Residual, ResidualNorms};
+use crate::chain::residual::{FoundBy, Residual, ResidualNorms};
 use crate::chain::scaling::{LEAST_LOAD, natural};
-pub(crate) use crate::chain::scaling::{disparate, scales_of};
 use crate::chain::stability::{ShapeStability, shape_stability, swept_stability};
 use crate::chain::stiffness::{ChainStiffness, chain_stiffness, swept_stiffness};
-pub(crate) use crate::chain::system::{System, rounding};
 use crate::model::chain::Chain;
 use crate::spatial::{Pose, Wrench};
+
+pub(crate) use crate::chain::scaling::{disparate, scales_of};
+pub(crate) use crate::chain::system::{System, rounding};
 
 /// A chain in equilibrium.
 #[derive(Clone, Debug)]
@@ -51,6 +51,14 @@ pub struct Equilibrium {
     pub residual: Residual,
     /// Method by which it was found: a restart may have changed the branch.
     pub found_by: FoundBy,
+}
+
+/// Coordinates and wrench on the end that solve the conditions of equilibrium, with the work that it took.
+pub(crate) struct Solution {
+    pub coordinates: Vec<f64>,
+    pub wrench: Wrench,
+    pub iterations: usize,
+    pub norms: ResidualNorms,
 }
 
 impl System {
@@ -82,42 +90,33 @@ impl System {
 
     /// Everything that is known about the state at which the system was evaluated; it is dense unless
     /// the stiffness and stability are given.
-    #[allow(clippy::too_many_arguments)] // one internal kernel, called from one place
     pub(crate) fn equilibrium(
         &self,
         chain: &Chain,
         scales: &[f64],
-        x: Vec<f64>,
-        wrench: Wrench,
+        solution: Solution,
         conservative: bool,
-        iterations: usize,
-        norms: &ResidualNorms,
         stiffness_and_stability: Option<(ChainStiffness, ShapeStability)>,
     ) -> Equilibrium {
-        let stiffness_and_stability = stiffness_and_stability
+        let (stiffness, stability) = stiffness_and_stability
             .unwrap_or_else(|| self.dense_stiffness_and_stability(chain, scales, conservative));
-        self.described(
-            chain,
-            x,
-            wrench,
-            conservative,
-            iterations,
-            norms,
-            stiffness_and_stability,
-        )
+        self.described(chain, solution, conservative, stiffness, stability)
     }
 
-    #[allow(clippy::too_many_arguments)] // one internal kernel, called from two places
     pub(crate) fn described(
         &self,
         chain: &Chain,
-        x: Vec<f64>,
-        wrench: Wrench,
+        solution: Solution,
         conservative: bool,
-        iterations: usize,
-        norms: &ResidualNorms,
-        (stiffness, stability): (ChainStiffness, ShapeStability),
+        stiffness: ChainStiffness,
+        stability: ShapeStability,
     ) -> Equilibrium {
+        let Solution {
+            coordinates,
+            wrench,
+            iterations,
+            norms,
+        } = solution;
         Equilibrium {
             tip: self.kinematics.tip_pose(),
             nodes: (0..chain.nodes().len())
@@ -126,7 +125,7 @@ impl System {
             spring_torques: self.spring_torque.clone(),
             energy: self.energy,
             conservative,
-            coordinates: x,
+            coordinates,
             wrench,
             stiffness,
             stability,

@@ -2,12 +2,11 @@
 
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 
-use crate::chain::equilibrium::Equilibrium;
-use crate::chain::potential::is_conservative;
-use crate::chain::problem::{ChainProblem, Prescribed};
-use crate::chain::residual::ResidualNorms;
+use crate::chain::equilibrium::{Equilibrium, Solution};
+use crate::chain::problem::{ChainProblem, Prescribed, is_conservative};
+use crate::chain::residual::{FoundBy, ResidualNorms};
 use crate::chain::scaling::{natural, scales_of, step_limit};
-use crate::chain::sweep::end_spring::STEP_SPRINGS;
+use crate::chain::sweep::factor::STEP_SPRINGS;
 use crate::chain::sweep::solve::{Bordered, EndRows};
 use crate::chain::sweep::stages::{ChainMethod, Sweep, turned_rows};
 use crate::chain::system::{Hessian, System, rounding};
@@ -381,39 +380,28 @@ impl<'p, 'a> Attempt<'p, 'a> {
 }
 
 impl Attempt<'_, '_> {
-    pub fn finish(
-        mut self,
-        x: Vec<f64>,
-        wrench: Wrench,
-        iterations: usize,
-        norms: &ResidualNorms,
-    ) -> (Equilibrium, ChainMethod) {
-        self.evaluate_system(&x, &wrench, 1.0);
+    pub fn finish(mut self, solution: Solution, found_by: FoundBy) -> (Equilibrium, ChainMethod) {
+        let (x, wrench) = (&solution.coordinates, &solution.wrench);
+        self.evaluate_system(x, wrench, 1.0);
         let (chain, scales) = (self.problem.chain, &self.scales);
         let conservative = is_conservative(self.problem);
         let swept = self
             .system
             .swept_stiffness_and_stability(chain, scales, None);
-        let stiffness_and_stability = match swept.filter(|(_, s)| conservative || s.stable) {
-            Some(stiffness_and_stability) => stiffness_and_stability,
+        let (stiffness, stability) = match swept.filter(|(_, s)| conservative || s.stable) {
+            Some(found) => found,
             None => {
                 if self.system.sweep.is_some() {
                     self.system.make_dense();
-                    self.evaluate_system(&x, &wrench, 1.0);
+                    self.evaluate_system(x, wrench, 1.0);
                 }
                 self.system
                     .dense_stiffness_and_stability(chain, &self.scales, conservative)
             }
         };
-        let mut equilibrium = self.system.described(
-            chain,
-            x,
-            wrench,
-            conservative,
-            iterations,
-            norms,
-            stiffness_and_stability,
-        );
+        let mut equilibrium =
+            (self.system).described(chain, solution, conservative, stiffness, stability);
+        equilibrium.found_by = found_by;
         let [last, before] = self.corrections;
         equilibrium.residual.rate = (before > 0.0).then(|| last / before);
         (equilibrium, self.system.method())

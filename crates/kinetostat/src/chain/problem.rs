@@ -1,16 +1,15 @@
-//! Problem of one chain's equilibrium: its commands, its loads and its end condition.
-
-use nalgebra::{Rotation3, Vector6};
-#[cfg(feature = "serde")]
-use serde::{Deserialize, Serialize};
+//! Problem of one chain's equilibrium: its commands, its loads with their potential, and its end condition.
 
 use crate::error::{Error, Result};
 use crate::model::chain::Chain;
 use crate::model::kinematics::Kinematics;
 use crate::model::limits::check_number;
-use crate::model::loads::check::check_load;
+use crate::model::loads::check::{check_load, common_axis, dead_moment_is_conservative, fits};
 use crate::model::loads::load::Load;
 use crate::spatial::{Pose, Wrench};
+use nalgebra::{Rotation3, Vector3, Vector6};
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
 
 /// Refuses what cannot be solved: before the iteration starts, and in debug builds with a look at
 /// every tangent.
@@ -172,4 +171,74 @@ pub(crate) fn check_numbers(
     let place = problem.chain.place();
     let mut numbers = v.iter();
     numbers.try_for_each(|x| check_number(&place, || what.to_owned(), *x))
+}
+
+/// The wrench that the end condition prescribes, zero in the directions of prescribed pose.
+pub(crate) fn prescribed_wrench(problem: &ChainProblem<'_>) -> Wrench {
+    let end = &problem.end;
+    let mut own = end.wrench.rotated(&end.axes.inverse());
+    for k in 0..6 {
+        if end.prescribed[k] == Prescribed::Pose {
+            own.0[k] = 0.0;
+        }
+    }
+    own.rotated(&end.axes)
+}
+
+/// True if statements about energy are valid for a problem: every load and the prescribed end wrench is conservative.
+#[must_use]
+pub fn is_conservative(problem: &ChainProblem<'_>) -> bool {
+    let (chain, end) = (problem.chain, prescribed_wrench(problem));
+    problem.loads.iter().all(|load| load.conservative(chain))
+        && dead_moment_is_conservative(chain, chain.tip(), &end.moment())
+}
+
+/// Potential energy (J) of all loads at coordinates (m, rad): node loads, and the dead wrench that
+/// the end condition prescribes. With the springs' energy it is what an equilibrium makes
+/// stationary. The zero is arbitrary but the same for all shapes of a problem. `None` where a load
+/// has no potential.
+///
+/// # Errors
+/// Coordinates of the wrong length or not finite, loads that do not fit the chain.
+pub fn load_energy(problem: &ChainProblem<'_>, coordinates: &[f64]) -> Result<Option<f64>> {
+    let (chain, commands) = (problem.chain, &problem.commands);
+    chain.check(coordinates, commands)?;
+    let kinematics = Kinematics::new(chain, &problem.base, coordinates, commands);
+    let dead = |node: usize, wrench: &Wrench| {
+        let forces = -wrench.force().dot(&kinematics.node_position(node));
+        if wrench.moment() == Vector3::zeros() {
+            return Some(forces);
+        }
+        common_axis(chain, node)?;
+        // One axis: angles add, whole turns included.
+        let jacobian = kinematics.jacobian(node);
+        let turned: f64 = coordinates
+            .iter()
+            .chain(commands)
+            .enumerate()
+            .map(|(i, x)| wrench.moment().dot(&jacobian.fixed_view::<3, 1>(3, i)) * x)
+            .sum();
+        Some(forces - turned)
+    };
+    let mut sum = dead(chain.tip(), &prescribed_wrench(problem));
+    for load in &problem.loads {
+        fits(chain, &kinematics, load)?;
+        let own = match load {
+            Load::Dead { node, wrench } => dead(*node, wrench),
+            Load::Gravity(gravity) => Some(
+                chain
+                    .bodies()
+                    .iter()
+                    .map(|b| -b.mass * gravity.dot(&kinematics.node_position(b.node)))
+                    .chain(
+                        (chain.segment_masses().iter())
+                            .map(|s| s.weight_energy(&kinematics, gravity)),
+                    )
+                    .sum(),
+            ),
+            Load::Custom(load) => load.energy(&kinematics),
+        };
+        sum = sum.zip(own).map(|(a, b)| a + b);
+    }
+    Ok(sum)
 }

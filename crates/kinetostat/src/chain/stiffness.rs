@@ -12,10 +12,10 @@
 
 use nalgebra::{DMatrix, Matrix6};
 
-pub(crate) use crate::chain::directions::{Direction, DirectionKind, directions};
-use crate::chain::directions::{Share, free_by_joints, largest, shares};
+use crate::chain::directions::{
+    Share, free_by_joints, largest, names_in, passive_null_space, scaled_jacobian, shares,
+};
 use crate::chain::graded::Graded;
-use crate::chain::passive::{names_in, passive_null_space, scaled_jacobian};
 use crate::chain::scaling::scales_of;
 use crate::chain::sweep::stages::Sweep;
 use crate::chain::system::{Hessian, System};
@@ -24,6 +24,8 @@ use crate::linalg::saddle::{Saddle, column_space};
 use crate::model::chain::{Chain, Role};
 use crate::number::larger;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench};
+
+pub(crate) use crate::chain::directions::{Direction, DirectionKind, directions};
 
 /// Stiffness of a chain at its tip.
 ///

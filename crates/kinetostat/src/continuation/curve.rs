@@ -8,18 +8,20 @@
 //! Shapes that a motion turns into each other at no cost (a round rod that buckles in any direction)
 //! are one family and one branch, followed at rest along that motion ([`CurvePoint::in_family`]).
 
+use std::fmt::Debug;
 use std::sync::Arc;
 
-use nalgebra::DVector;
+use nalgebra::{DVector, Matrix6};
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
+use crate::chain::directions::Direction;
 use crate::chain::equilibrium::Equilibrium;
 use crate::chain::problem::ChainProblem;
-use crate::continuation::curve_equilibrium::CurveEquilibrium;
+use crate::chain::stability::ShapeStability;
 use crate::continuation::linear::family::Family;
-use crate::continuation::parameter::Parameter;
-use crate::continuation::settings::CurveSettings;
+use crate::continuation::settings::{CurveSettings, Parameter};
+use crate::spatial::{Pose, Wrench};
 
 /// Reason why a branch ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -238,5 +240,161 @@ pub(crate) fn join<E: CurveEquilibrium>(
         start,
         origin,
         ends: [first, last],
+    }
+}
+
+impl BranchEnd {
+    /// Reason why the branch ends.
+    #[must_use]
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Range => "leaves the range",
+            Self::Angle => "a joint or a machine's tool has turned about half a turn",
+            Self::Points => "as many points as allowed",
+            Self::Closed => "comes back to where it started",
+            Self::Lost => "no further point was found",
+            Self::Stalled => "ever shorter steps made no progress",
+            Self::Found => "what was looked for was found",
+        }
+    }
+
+    /// True if nothing that was requested ends the branch there: it may continue.
+    #[must_use]
+    pub fn may_go_on(self) -> bool {
+        matches!(self, Self::Points | Self::Lost | Self::Stalled)
+    }
+}
+
+impl<E: CurveEquilibrium> Special<E> {
+    /// True if stability ends here: under a dead load, under prescribed motion.
+    #[must_use]
+    pub fn ends_stability(&self) -> [bool; 2] {
+        if !self.stable_side {
+            return [false; 2];
+        }
+        match self.kind {
+            SpecialKind::LoadLimit => [true, false],
+            SpecialKind::DisplacementLimit => [false, true],
+            // The stability of the point itself is a matter of rounding: it is at the limit of what holds.
+            _ => [self.point.slope >= 0.0, true],
+        }
+    }
+
+    /// Describes the event here; `subject` is the owner of the curve: "chain" or "machine".
+    #[must_use]
+    pub fn description(&self, subject: &str) -> String {
+        let text = match self.kind {
+            SpecialKind::LoadLimit if self.stable_side => {
+                format!("the load has its extreme here: under a dead load the {subject} snaps")
+            }
+            SpecialKind::DisplacementLimit if self.stable_side => format!(
+                "the motion has its extreme here: under prescribed motion the {subject} snaps"
+            ),
+            SpecialKind::LoadLimit => "extreme of the load".to_owned(),
+            SpecialKind::DisplacementLimit => "extreme of the motion".to_owned(),
+            SpecialKind::Pitchfork if self.stable_side => {
+                format!("pitchfork: the {subject} buckles to one side or the other")
+            }
+            SpecialKind::Pitchfork => "pitchfork: two mirrored shapes branch off".to_owned(),
+            SpecialKind::Transcritical => "two branches cross and both go on".to_owned(),
+            SpecialKind::StabilityChange => {
+                "stability changes here in a limb or a platform that moves while the tool stands still".to_owned()
+            }
+            SpecialKind::Multiple { modes } => format!("{modes} modes become critical together"),
+        };
+        match self.stable_side {
+            true => text,
+            false => format!("{text}, on a part of the curve that is unstable anyway"),
+        }
+    }
+}
+
+/// An equilibrium of a chain or of a machine.
+pub trait CurveEquilibrium: Clone + Debug {
+    /// Stability of the equilibrium on a curve.
+    type Stability: CurveStability;
+
+    /// Pose of the tool (of a chain: its end), base axes.
+    fn tool(&self) -> &Pose;
+    /// Wrench on the tool, about its origin, base axes (N, N m).
+    fn wrench(&self) -> &Wrench;
+    /// Energy in all springs, J.
+    fn spring_energy(&self) -> f64;
+    /// All loads have a potential; if not, statements about energy do not hold.
+    fn conservative(&self) -> bool;
+    /// Tangent stiffness at the tool, base axes.
+    fn stiffness(&self) -> &Matrix6<f64>;
+    /// Principal directions of that stiffness.
+    fn directions(&self) -> &[Direction];
+    /// The shape of the chain, or of every limb, stays while the tool is held.
+    fn shape_stable(&self) -> bool;
+    /// Largest share of the way to buckling while the tool is held; `None` without inner freedom.
+    fn share_to_buckling(&self) -> Option<f64>;
+    /// Motion of a chain's coordinates in which its shape would buckle; empty for a machine.
+    fn buckling_mode(&self) -> &[f64];
+}
+
+/// Stability of an equilibrium on a curve.
+pub trait CurveStability: Clone + Debug {
+    /// True if the equilibrium is stable.
+    fn stable(&self) -> bool;
+    /// Number of independent motions in which it goes away.
+    fn unstable_modes(&self) -> usize;
+    /// True if, under loads without a potential, it does not diverge but may oscillate with growing amplitude
+    /// (flutter), which depends on the masses.
+    fn may_flutter(&self) -> bool;
+}
+
+impl CurveEquilibrium for Equilibrium {
+    type Stability = ShapeStability;
+
+    fn tool(&self) -> &Pose {
+        &self.tip
+    }
+
+    fn wrench(&self) -> &Wrench {
+        &self.wrench
+    }
+
+    fn spring_energy(&self) -> f64 {
+        self.energy
+    }
+
+    fn conservative(&self) -> bool {
+        self.conservative
+    }
+
+    fn stiffness(&self) -> &Matrix6<f64> {
+        &self.stiffness.cartesian.matrix
+    }
+
+    fn directions(&self) -> &[Direction] {
+        &self.stiffness.directions
+    }
+
+    fn shape_stable(&self) -> bool {
+        self.stability.stable
+    }
+
+    fn share_to_buckling(&self) -> Option<f64> {
+        self.stability.share_to_buckling
+    }
+
+    fn buckling_mode(&self) -> &[f64] {
+        &self.stability.mode
+    }
+}
+
+impl CurveStability for ShapeStability {
+    fn stable(&self) -> bool {
+        self.stable
+    }
+
+    fn unstable_modes(&self) -> usize {
+        self.unstable_modes
+    }
+
+    fn may_flutter(&self) -> bool {
+        self.may_flutter()
     }
 }

@@ -17,20 +17,18 @@
 
 pub(crate) mod chain;
 pub(crate) mod curve;
-pub(crate) mod curve_equilibrium;
-pub(crate) mod description;
 pub(crate) mod follow;
 pub(crate) mod linear;
 pub(crate) mod machine;
-pub(crate) mod parameter;
 pub(crate) mod settings;
 pub(crate) mod tracing;
 
-pub use curve::{Branch, BranchEnd, CurvePoint, Curves, Jump, Special, SpecialKind};
-pub use curve_equilibrium::{CurveEquilibrium, CurveStability};
+pub use curve::{
+    Branch, BranchEnd, CurveEquilibrium, CurvePoint, CurveStability, Curves, Jump, Special,
+    SpecialKind,
+};
 pub use follow::follow;
 pub use machine::curves::MachineCurves;
 pub use machine::displacement_curve::{DisplacementCurve, DisplacementPoint};
 pub use machine::tool_stability::MachineStability;
-pub use parameter::{LoadPattern, Parameter};
-pub use settings::CurveSettings;
+pub use settings::{CurveSettings, LoadPattern, Parameter};

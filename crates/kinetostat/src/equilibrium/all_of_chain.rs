@@ -12,11 +12,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::chain::equilibrium::Equilibrium;
-use crate::chain::found_by::FoundBy;
-use crate::chain::potential::load_energy;
-use crate::chain::problem::{ChainProblem, Prescribed};
-use crate::equilibrium::bounds::Bounds;
+use crate::chain::problem::{ChainProblem, Prescribed, load_energy};
+use crate::chain::residual::FoundBy;
 use crate::equilibrium::chain_search::{ChainSearch, Known};
+use crate::equilibrium::chain_starts::Bounds;
 use crate::equilibrium::found::{Equilibria, FoundEquilibrium};
 use crate::equilibrium::search::{Entry, Limits, search};
 use crate::error::Result;

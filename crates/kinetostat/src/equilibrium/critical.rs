@@ -12,14 +12,12 @@ use std::cell::RefCell;
 use nalgebra::DVector;
 
 use crate::chain::equilibrium::Equilibrium;
-use crate::chain::potential::is_conservative;
-use crate::chain::problem::ChainProblem;
+use crate::chain::problem::{ChainProblem, is_conservative};
 use crate::chain::stability::ShapeStability;
 use crate::continuation::chain::system::ChainSystem;
 use crate::continuation::curve::{CurvePoint, Curves, SpecialKind};
 use crate::continuation::follow::follow_until;
-use crate::continuation::parameter::{LoadPattern, Parameter};
-use crate::continuation::settings::CurveSettings;
+use crate::continuation::settings::{CurveSettings, LoadPattern, Parameter};
 use crate::continuation::tracing::tracer::Tracer;
 use crate::equilibrium::chain::solve_chain;
 use crate::equilibrium::critical_tangent::{

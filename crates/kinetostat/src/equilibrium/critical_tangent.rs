@@ -1,17 +1,16 @@
 //! The tangent of a chain under a growing load among the motions that nothing holds: divergence, and the prediction by the
 //! first load step.
 
-use nalgebra::{DMatrix, DVector};
-#[cfg(feature = "serde")]
-use serde::{Deserialize, Serialize};
-
-use crate::chain::passive::scaled_jacobian;
+use crate::chain::directions::scaled_jacobian;
 use crate::chain::stability::share_to_buckling;
 use crate::continuation::chain::system::ChainSystem;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{Saddle, column_space};
 use crate::linalg::singular_values::SingularValues;
 use crate::number::larger;
+use nalgebra::{DMatrix, DVector};
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
 
 /// Object whose stability is demanded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,7 +56,7 @@ impl Tangent {
         let rows = match of {
             StabilityOf::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),
             StabilityOf::Shape => {
-                crate::chain::passive::scaled_jacobian(&system.equations, &system.scaling)
+                crate::chain::directions::scaled_jacobian(&system.equations, &system.scaling)
             }
         };
         let null = free_motions(system, &rows);

@@ -1,7 +1,7 @@
 //! Equilibria that a search found, of a chain or of a machine, and how sure it is that there are no more.
 
 use crate::chain::equilibrium::Equilibrium;
-use crate::continuation::curve_equilibrium::CurveEquilibrium;
+use crate::continuation::curve::CurveEquilibrium;
 use crate::equilibrium::search::Coverage;
 
 /// An equilibrium that a search found, with its stability and how many starts ended there.

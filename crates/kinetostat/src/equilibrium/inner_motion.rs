@@ -5,7 +5,7 @@
 use nalgebra::DVector;
 
 use crate::continuation::chain::system::ChainSystem;
-use crate::continuation::tracing::state_distance::wrapped;
+use crate::continuation::tracing::system::wrapped;
 use crate::linalg::singular_values::SingularValues;
 use crate::model::chain::Chain;
 use crate::number::{larger, largest_size};

@@ -3,7 +3,7 @@
 use crate::chain::problem::{ChainProblem, EndCondition};
 use crate::chain::scaling::nudged;
 use crate::equilibrium::all_of_chain::{SearchSettings, equilibria};
-use crate::equilibrium::bounds::Bounds;
+use crate::equilibrium::chain_starts::Bounds;
 use crate::equilibrium::found::{Equilibria, FoundEquilibrium};
 use crate::error::Result;
 use crate::linalg::singular_values::SingularValues;

@@ -9,7 +9,7 @@ use crate::chain::directions::DirectionKind;
 use crate::continuation::machine::tool_conditions::ToolConditions;
 use crate::continuation::settings::CurveSettings;
 use crate::equilibrium::all_of_chain::SearchSettings;
-use crate::equilibrium::bounds::Bounds;
+use crate::equilibrium::chain_starts::Bounds;
 use crate::equilibrium::limb_shapes::{
     are_searched_one_by_one, combinations, is_inside_out, limb_shapes, state_of,
 };

@@ -12,7 +12,6 @@
 
 pub(crate) mod all_of_chain;
 pub(crate) mod all_of_machine;
-pub(crate) mod bounds;
 pub(crate) mod chain;
 pub(crate) mod chain_search;
 pub(crate) mod chain_starts;
@@ -20,17 +19,15 @@ pub(crate) mod critical;
 pub(crate) mod critical_tangent;
 pub(crate) mod descent;
 pub(crate) mod found;
-pub(crate) mod held_machine;
 pub(crate) mod inner_motion;
 pub(crate) mod limb_shapes;
 pub(crate) mod machine_search;
-pub(crate) mod no_equilibrium;
 pub(crate) mod search;
 
 pub use all_of_chain::{SearchSettings, equilibria};
 pub use all_of_machine::SpreadSettings;
-pub use bounds::Bounds;
 pub use chain::solve_chain;
+pub use chain_starts::Bounds;
 pub use critical::{CriticalLoad, CriticalPoint, critical_load_factor};
 pub use critical_tangent::StabilityOf;
 pub use found::{Equilibria, FoundEquilibrium, LimbShapes};

@@ -16,8 +16,6 @@
 pub(crate) mod block_elimination;
 pub(crate) mod complement;
 pub(crate) mod derivatives;
-pub(crate) mod krylov;
-pub(crate) mod largest;
 pub(crate) mod saddle;
 pub(crate) mod singular_values;
 pub(crate) mod sparse;

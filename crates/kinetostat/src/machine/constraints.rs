@@ -7,7 +7,7 @@ use crate::chain::directions::axis_description;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::independent_columns;
 use crate::linalg::singular_values::range;
-use crate::machine::ends::ends;
+use crate::machine::network::ends;
 use crate::machine::posture::Posture;
 use crate::model::chain::Role;
 use crate::model::kinematics::Kinematics;

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 
 use crate::chain::directions::scaled_twist;
-use crate::chain::divergence::{TangentMotions, diverging_motions};
+use crate::chain::stability::{TangentMotions, diverging_motions};
 use crate::chain::stiffness::{ChainStiffness, Direction, DirectionKind, directions};
 use crate::linalg::block_elimination::Pivots;
 use crate::linalg::complement::complement;

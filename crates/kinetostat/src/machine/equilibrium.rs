@@ -1,20 +1,12 @@
 //! A machine in equilibrium: where its platforms are, what its limbs carry, how stiff it is there and whether it
 //! stays [R 6.21-6.30].
 
-use nalgebra::Matrix6;
-
-#[cfg(feature = "serde")]
-use serde::{Deserialize, Serialize};
-
 use crate::chain::compliance::{CartesianCompliance, stiffness_against_force};
 use crate::chain::directions::{Direction, DirectionKind, Share};
-use crate::chain::divergence::TangentMotions;
-use crate::chain::found_by::FoundBy;
 use crate::chain::link_load::{LinkLoad, link_loads};
-use crate::chain::potential::load_energy;
-use crate::chain::problem::{ChainProblem, EndCondition};
-use crate::chain::residual::Residual;
-use crate::chain::stability::ShapeStability;
+use crate::chain::problem::{ChainProblem, EndCondition, load_energy};
+use crate::chain::residual::{FoundBy, Residual};
+use crate::chain::stability::{ShapeStability, TangentMotions};
 use crate::chain::stiffness::ChainStiffness;
 use crate::error::{Error, Result};
 use crate::linalg::sparse::Sparse;
@@ -33,6 +25,9 @@ use crate::machine::state::MechanismState;
 use crate::model::mechanism::Mechanism;
 use crate::number::smaller;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual};
+use nalgebra::Matrix6;
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
 
 /// Stability of the platform.
 #[derive(Clone, Debug, PartialEq)]
@@ -246,7 +241,8 @@ pub(crate) fn conclude(
         .map(|i| solver.stiffness_and_stability(i))
         .collect();
     let limbs = stiffness_and_stability.into_iter().enumerate();
-    let limbs = limbs.map(|(i, found)| limb_equilibrium(solver, i, found));
+    let limbs =
+        limbs.map(|(i, (stiffness, stability))| limb_equilibrium(solver, i, stiffness, stability));
     let limbs: Vec<LimbEquilibrium> = limbs.collect::<Result<_>>()?;
     let outside = potential_of_platforms(solver);
     let energy = limbs.iter().fold(outside, |sum, limb| {
@@ -289,7 +285,8 @@ pub(crate) fn conclude(
 fn limb_equilibrium(
     solver: &PlatformSolver<'_>,
     i: usize,
-    (stiffness, stability): (ChainStiffness, ShapeStability),
+    stiffness: ChainStiffness,
+    stability: ShapeStability,
 ) -> Result<LimbEquilibrium> {
     let limb = &solver.mechanism.limbs()[i];
     let system = solver.limb_system(i);

@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3};
 
 use crate::chain::directions::axis_description;
 use crate::error::{Error, Result};
-use crate::linalg::largest::largest;
+use crate::linalg::sparse::largest;
 use crate::machine::inverse::limb::wrap;
 use crate::machine::posture::Posture;
 use crate::machine::singular::lost_motion::{LostMotionSearch, solve};

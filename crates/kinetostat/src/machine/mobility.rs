@@ -3,8 +3,8 @@
 use nalgebra::DMatrix;
 
 use crate::linalg::saddle::{column_space, independent_columns};
-use crate::machine::ends::ends;
 use crate::machine::inverse::limb::blocked_motions;
+use crate::machine::network::ends;
 use crate::machine::platforms::solver::rates_of;
 use crate::machine::posture::Posture;
 use crate::spatial::{Directions, MotionKind};

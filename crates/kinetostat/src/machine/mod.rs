@@ -3,7 +3,7 @@
 //! Takes a [`Mechanism`](crate::Mechanism) and a target of the tool, gives the commands of the actuators (`inverse`), the
 //! posture, its unloaded stiffness, what the limbs constrain, how near a singular posture is (`singular`), what assembly
 //! with errors does to first order (`assembly`), and which joints and springs take part in a motion of the tool
-//! (`participation`, `negative_stiffness`). `limb_stiffness` is each limb's share in the tangent. `linearised` is an equilibrium's tangent with all coordinates kept: who stores what of
+//! (`participation`, `negative_stiffness`). `stiffness` has each limb's share in the tangent, too. `linearised` is an equilibrium's tangent with all coordinates kept: who stores what of
 //! a deflection, and where the equilibrium goes as the machine changes. `platforms` is the equilibrium of the platforms at one share of the load.
 //!
 //! ```text
@@ -13,13 +13,11 @@
 pub(crate) mod assembly;
 pub(crate) mod constraints;
 pub(crate) mod directions;
-pub(crate) mod ends;
 pub(crate) mod equilibrium;
 pub(crate) mod following;
 pub(crate) mod forward;
 pub(crate) mod graded;
 pub(crate) mod inverse;
-pub(crate) mod limb_stiffness;
 pub(crate) mod linearised;
 pub(crate) mod mobility;
 pub(crate) mod negative_stiffness;
@@ -32,13 +30,11 @@ pub(crate) mod request;
 pub(crate) mod singular;
 pub(crate) mod state;
 pub(crate) mod stiffness;
-pub(crate) mod turned_loads;
 
 pub use assembly::LinearAssembly;
 pub use constraints::{Overconstraint, SelfStress};
 pub use equilibrium::{LimbEquilibrium, MechanismEquilibrium, PlatformStability};
 pub use inverse::limb::{LimbPosture, inverse_kinematics};
-pub use limb_stiffness::{JointSensitivity, LimbStiffness};
 pub use linearised::{
     LinearisedMachine, MachineMotion, MachineResidual, MachineTangents, WorkOf, WorkTerm,
 };
@@ -47,4 +43,4 @@ pub use posture::Posture;
 pub use request::PostureRequest;
 pub use singular::near::{NearSingularity, SingularityKind};
 pub use state::MechanismState;
-pub use stiffness::UnloadedStiffness;
+pub use stiffness::{JointSensitivity, LimbStiffness, UnloadedStiffness};

@@ -24,14 +24,15 @@ use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::error::Part;
-use crate::model::beam::BeamSection;
+use crate::model::beam::{
+    BeamSection, NoSegment, compliance_per_length, moved, segment_compliance,
+};
 use crate::model::builder::ChainBuilder;
 use crate::model::chain::Body;
 use crate::model::link_mass::{LinkMass, MassModel, SegmentMass, shear_ratios};
 use crate::model::springs::block::{Segment, SpringLaw};
 use crate::model::springs::bowing::BowingLaw;
 use crate::model::springs::logarithm::LogarithmLaw;
-use crate::model::uniform::{NoSegment, compliance_per_length, moved, segment_compliance};
 use crate::spatial::{Pose, turn_matrix};
 
 /// Kinematics and energy of a segment. Unloaded stiffness does not depend on it.

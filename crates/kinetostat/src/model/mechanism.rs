@@ -7,17 +7,16 @@
 
 use std::sync::Arc;
 
+use crate::error::{Error, Place, Result};
+use crate::model::chain::{Chain, Scale};
+use crate::model::loads::check::moments_have_potential;
+use crate::model::loads::load::Load;
+use crate::model::loads::platform::PlatformLoad;
+use crate::number::larger;
+use crate::spatial::Pose;
 use nalgebra::{Matrix3, Vector3};
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
-
-use crate::error::{Error, Place, Result};
-use crate::model::chain::{Chain, Scale};
-use crate::model::loads::load::Load;
-use crate::model::loads::platform::PlatformLoad;
-use crate::model::loads::potential::moments_have_potential;
-use crate::number::larger;
-use crate::spatial::Pose;
 
 /// A rigid body of the graph.
 ///

@@ -11,7 +11,6 @@ use crate::model::loads::check::check_load;
 use crate::model::loads::load::Load;
 use crate::model::loads::platform::PlatformLoad;
 use crate::model::mechanism::{Limb, Mechanism, MechanismParts, Platform};
-use crate::model::mechanism_check::{check_platform, check_platform_load};
 use crate::spatial::Pose;
 
 /// Builds a [`Mechanism`] from platforms, the limbs between them, and loads.
@@ -96,7 +95,11 @@ impl MechanismBuilder {
     /// # let hook = machine.platform(Platform { mass: 40.0, ..Platform::new("hook", home) });
     /// // A spring from the base, straight under the hook, pulls it down; a wire pulls the carriage aside.
     /// let law = LengthLaw::Linear { stiffness: 2e4, free_length: 0.4, preload: 0.0 }; // N/m, m, N
-    /// let spring = PlatformLoad::strut((0, vector![0.3, 0.2, 0.0]), (hook, Vector3::zeros()), law);
+    /// let spring = PlatformLoad::strut(
+    ///     Anchor::on_platform(0, vector![0.3, 0.2, 0.0]),
+    ///     Anchor::on_platform(hook, Vector3::zeros()),
+    ///     law,
+    /// );
     /// let pull = Wrench::new(vector![250.0, 0.0, 0.0], Vector3::zeros()); // N
     /// let point = vector![0.0, 0.1, 0.0]; // m
     /// let wire = PlatformLoad::Wrench { platform: carriage, point, wrench: pull, turns: false };
@@ -316,4 +319,76 @@ impl Mechanism {
             loads: Vec::new(),
         }
     }
+}
+
+/// Refuses a platform without a sensible home, mass or inertia.
+pub(crate) fn check_platform(place: &Place, platform: &Platform) -> Result<()> {
+    let place = place.with_part(Part::Platform(platform.name.clone()));
+    check_pose(&place, "the home pose", &platform.home)?;
+    check_numbers(&place, "the mass", [&platform.mass])?;
+    check_numbers(&place, "the centre of mass", &platform.centre_of_mass)?;
+    check_numbers(&place, "the inertia", &platform.inertia)?;
+    if platform.mass < 0.0 {
+        let reason = format!(
+            "the mass is {} kg, a number that is not negative is needed",
+            platform.mass
+        );
+        return Err(Error::model(place, reason));
+    }
+    Ok(())
+}
+
+/// Refuses a load on platforms whose numbers, or whose answers at home, are none.
+pub(crate) fn check_platform_load(mechanism: &MechanismParts, load: &PlatformLoad) -> Result<()> {
+    let place = Place::mechanism(mechanism.name.as_str());
+    if let PlatformLoad::Wrench { point, wrench, .. } = load {
+        check_numbers(&place, "the place of a wrench on a platform", point)?;
+        check_numbers(&place, "a wrench on a platform", &wrench.0)?;
+    }
+    check_platforms(mechanism, load)?;
+    let home: Vec<_> = mechanism.platforms.iter().map(|p| p.home).collect();
+    let (mut wrenches, mut tangents) = (Vec::new(), Vec::new());
+    load.wrenches(&home, &mut wrenches);
+    load.tangents(&home, &mut tangents);
+    let what = "what a load on platforms answers at home";
+    for (_, wrench) in &wrenches {
+        check_numbers(&place, what, &wrench.0)?;
+    }
+    tangents
+        .iter()
+        .try_for_each(|tangent| check_numbers(&place, what, &tangent.matrix))
+}
+
+/// Checks that a load fits the platforms.
+fn check_platforms(mechanism: &MechanismParts, load: &PlatformLoad) -> Result<()> {
+    let fault = |reason: String| {
+        let place = Place::mechanism(mechanism.name.as_str());
+        Err(Error::model(place, reason))
+    };
+    let own = load.platforms();
+    let count = mechanism.platforms.len();
+    if let Some(wrong) = own.iter().find(|&&p| p == 0 || p >= count) {
+        return fault(format!(
+            "a load acts on platform {wrong}; those that move are 1 to {}",
+            count - 1
+        ));
+    }
+    match load {
+        PlatformLoad::Wrench { point, wrench, .. } => {
+            if !point.iter().chain(wrench.0.iter()).all(|x| x.is_finite()) {
+                return fault("a wrench on a platform is not finite".into());
+            }
+        }
+        PlatformLoad::Strut(strut) => {
+            if own.is_empty() || own.len() == 2 && own[0] == own[1] {
+                return fault(
+                    "a strut begins and ends at the same platform, so that it does nothing".into(),
+                );
+            }
+            if let Some(reason) = crate::model::loads::node_load::NodeLoad::fault(strut) {
+                return fault(reason);
+            }
+        }
+    }
+    Ok(())
 }

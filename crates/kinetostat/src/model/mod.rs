@@ -23,10 +23,8 @@ pub(crate) mod link_mass;
 pub(crate) mod loads;
 pub(crate) mod mechanism;
 pub(crate) mod mechanism_builder;
-pub(crate) mod mechanism_check;
 pub(crate) mod segment_weight;
 pub(crate) mod springs;
-pub(crate) mod uniform;
 
 pub use actuator::{ActuatorSpec, DriveRotor};
 pub use beam::BeamSection;

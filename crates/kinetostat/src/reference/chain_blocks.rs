@@ -1,4 +1,5 @@
-//! The blocks of a chain's tangent at one state: what the three ways to a stiffness share.
+//! The blocks of a chain's tangent at one state, which the three ways to a stiffness share, and the conditions under which closed
+//! forms hold.
 
 use nalgebra::{DMatrix, Matrix6, Vector6};
 
@@ -10,7 +11,6 @@ use crate::error::Result;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{RANK_TOLERANCE, column_space, pseudo_inverse};
 use crate::model::chain::{Chain, Role, Scale};
-use crate::reference::conditions::{Applied, Inapplicable};
 use crate::spatial::{Pose, Wrench};
 
 /// Jacobians, springs and Hessians of a chain at one state, scaled.
@@ -199,3 +199,27 @@ pub(crate) fn regular_inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let inverse = matrix.clone().try_inverse()?;
     inverse.iter().all(|x| x.is_finite()).then_some(inverse)
 }
+
+/// Reason why a form has no answer here.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Inapplicable {
+    /// `J_theta k J_theta^T` is singular: the springs alone do not move the end in all six
+    /// directions [R remark 1]. Carries how many they move.
+    SpringsDoNotReach(usize),
+    /// `J_q^T K J_q` is singular: these passive joints are redundant [R remark 2].
+    RedundantPassiveJoints(Vec<String>),
+    /// `K_theta - H_thetatheta` is singular: the load takes a spring's hold, as if nothing else
+    /// held it.
+    SpringsAreSpent,
+    /// The last bracket of [R 4.29] is singular: the held chain has a neutral motion of these
+    /// passive joints (redundancy, or a critical load).
+    PassiveJointsUndecided(Vec<String>),
+    /// The order must name each passive joint at most once; carries how many there are.
+    NotAnOrder(usize),
+    /// The form is that of the unloaded chain [R 3.10, 3.11], and this one is loaded.
+    Loaded,
+}
+
+/// Answer of a form that does not always apply; `Err` says why it does not.
+pub type Applied<T> = std::result::Result<T, Inapplicable>;

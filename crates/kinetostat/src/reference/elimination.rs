@@ -8,8 +8,7 @@ use nalgebra::{DMatrix, Matrix6, Vector6};
 
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{RANK_TOLERANCE, Saddle, column_space};
-use crate::reference::chain_blocks::{ChainBlocks, regular_inverse};
-use crate::reference::conditions::{Applied, Inapplicable};
+use crate::reference::chain_blocks::{Applied, ChainBlocks, Inapplicable, regular_inverse};
 use crate::reference::passive_rules::eliminated;
 
 impl std::fmt::Display for Inapplicable {

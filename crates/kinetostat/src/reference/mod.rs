@@ -12,14 +12,12 @@
 //! ```
 
 pub(crate) mod chain_blocks;
-pub(crate) mod conditions;
 pub(crate) mod elimination;
 pub(crate) mod passive_rules;
 pub(crate) mod report_iteration;
 pub(crate) mod shape_criterion;
 
-pub use chain_blocks::ChainBlocks;
-pub use conditions::{Applied, Inapplicable};
+pub use chain_blocks::{Applied, ChainBlocks, Inapplicable};
 pub use elimination::{LoadedClosedForm, Recursion};
 pub use passive_rules::{
     Axis, Elimination, eliminate_passive, planar_beam, planar_with_hinge_at_end,

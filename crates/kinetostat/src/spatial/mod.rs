@@ -5,14 +5,16 @@
 //! rotation vector, never by Euler angles. A [`Wrench`] is what the environment applies to the
 //! body, so that `wrench = stiffness * twist` for a small motion.
 
+use std::iter::Sum;
+use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+
 use nalgebra::{Isometry3, Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6};
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-mod directions;
-mod operators;
-
 pub use directions::Directions;
+
+mod directions;
 
 /// Position (m) and orientation of one frame in another; `base_from_tip` maps tip coordinates to
 /// base coordinates.
@@ -309,4 +311,72 @@ pub(crate) fn rotation_rate(e: &Vector3<f64>) -> Matrix3<f64> {
         1.0 / (angle * angle) - 1.0 / (2.0 * angle * (0.5 * angle).tan())
     };
     Matrix3::identity() + 0.5 * hat(e) + second * hat(e) * hat(e)
+}
+
+macro_rules! linear_space {
+    ($name:ident) => {
+        impl Add for $name {
+            type Output = Self;
+            fn add(self, other: Self) -> Self {
+                Self(self.0 + other.0)
+            }
+        }
+
+        impl AddAssign for $name {
+            fn add_assign(&mut self, other: Self) {
+                self.0 += other.0;
+            }
+        }
+
+        impl Sub for $name {
+            type Output = Self;
+            fn sub(self, other: Self) -> Self {
+                Self(self.0 - other.0)
+            }
+        }
+
+        impl SubAssign for $name {
+            fn sub_assign(&mut self, other: Self) {
+                self.0 -= other.0;
+            }
+        }
+
+        impl Neg for $name {
+            type Output = Self;
+            fn neg(self) -> Self {
+                Self(-self.0)
+            }
+        }
+
+        impl Mul<f64> for $name {
+            type Output = Self;
+            fn mul(self, factor: f64) -> Self {
+                Self(self.0 * factor)
+            }
+        }
+
+        impl Mul<$name> for f64 {
+            type Output = $name;
+            fn mul(self, vector: $name) -> $name {
+                vector * self
+            }
+        }
+
+        impl Sum for $name {
+            fn sum<I: Iterator<Item = Self>>(iter: I) -> Self {
+                iter.fold(Self::zero(), Add::add)
+            }
+        }
+    };
+}
+
+linear_space!(Twist);
+linear_space!(Wrench);
+
+impl Mul<Twist> for CartesianStiffness {
+    type Output = Wrench;
+    /// The wrench that a small motion meets.
+    fn mul(self, twist: Twist) -> Wrench {
+        Wrench(self.matrix * twist.0)
+    }
 }

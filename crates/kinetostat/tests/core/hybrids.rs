@@ -7,7 +7,7 @@ use crate::oracle::Flat;
 use crate::pantographs_and_lattices::double_pantograph;
 use crate::platforms::leg;
 use kinetostat::{
-    ActuatorSpec, BeamSection, Chain, LengthLaw, Limb, Mechanism, MotionKind, Platform,
+    ActuatorSpec, Anchor, BeamSection, Chain, LengthLaw, Limb, Mechanism, MotionKind, Platform,
     PlatformLoad, Pose, Settings, Twist, Wrench,
     spatial::{moved, pose_residual},
 };
@@ -50,7 +50,11 @@ fn preload(from: usize, to: usize) -> PlatformLoad {
     };
     // Far apart: the oracle takes differences of the direction between them.
     let ends = [vector![0.26, -0.12, 0.2], vector![-0.2, 0.15, -0.1]];
-    PlatformLoad::strut((from, ends[0]), (to, ends[1]), law)
+    PlatformLoad::strut(
+        Anchor::on_platform(from, ends[0]),
+        Anchor::on_platform(to, ends[1]),
+        law,
+    )
 }
 
 /// A bar without a spring between points of two platforms, as they are at home.

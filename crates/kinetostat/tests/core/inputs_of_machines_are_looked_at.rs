@@ -173,7 +173,11 @@ fn path(change: impl Fn(&mut CurveSettings, &mut f64)) -> Result<Vec<f64>> {
 }
 
 fn strut(law: LengthLaw) -> PlatformLoad {
-    PlatformLoad::strut((0, vector![0.0, 0.4, 0.0]), (2, Vector3::zeros()), law)
+    PlatformLoad::strut(
+        Anchor::on_platform(0, vector![0.0, 0.4, 0.0]),
+        Anchor::on_platform(2, Vector3::zeros()),
+        law,
+    )
 }
 
 fn inputs() -> Vec<(&'static str, Ask)> {

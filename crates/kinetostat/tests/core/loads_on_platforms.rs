@@ -4,7 +4,7 @@ use crate::common::{Rng, assert_equilibrium, scaled_error};
 use crate::graphs::{arm_with_parallel_wrist, limb, turns};
 use crate::oracle::Flat;
 use kinetostat::{
-    Chain, LengthLaw, Mechanism, MotionKind, PlatformLoad, Pose, Twist, Wrench,
+    Anchor, Chain, LengthLaw, Mechanism, MotionKind, PlatformLoad, Pose, Twist, Wrench,
     spatial::{moved, pose_residual},
 };
 use kinetostat_testing::{LargestEntry, Worst};
@@ -36,12 +36,24 @@ fn every_kind() -> Vec<PlatformLoad> {
         turns,
     };
     vec![
-        PlatformLoad::strut((1, points[0]), (2, points[1]), linear.clone()),
-        PlatformLoad::strut((0, points[2]), (2, points[0]), gas),
-        PlatformLoad::strut((2, points[1]), (0, points[0]), linear),
         PlatformLoad::strut(
-            (1, points[2]),
-            (2, points[0]),
+            Anchor::on_platform(1, points[0]),
+            Anchor::on_platform(2, points[1]),
+            linear.clone(),
+        ),
+        PlatformLoad::strut(
+            Anchor::on_platform(0, points[2]),
+            Anchor::on_platform(2, points[0]),
+            gas,
+        ),
+        PlatformLoad::strut(
+            Anchor::on_platform(2, points[1]),
+            Anchor::on_platform(0, points[0]),
+            linear,
+        ),
+        PlatformLoad::strut(
+            Anchor::on_platform(1, points[2]),
+            Anchor::on_platform(2, points[0]),
             LengthLaw::Constant { tension: 70.0 },
         ),
         on(false),
@@ -224,7 +236,11 @@ pub fn spring_and_limb_apart() -> [f64; 2] {
         free_length: rest,
         preload: 0.0,
     };
-    let first = loaded_wrist(vec![PlatformLoad::strut((1, below), (2, above), law)]);
+    let first = loaded_wrist(vec![PlatformLoad::strut(
+        Anchor::on_platform(1, below),
+        Anchor::on_platform(2, above),
+        law,
+    )]);
     let second = {
         let machine = arm_with_parallel_wrist(9.81);
         let mut builder = Mechanism::builder("sprung").gravity(machine.gravity());
@@ -296,19 +312,35 @@ fn loads_that_do_not_fit_are_refused() {
     let zero = Vector3::zeros();
     for (load, words) in [
         (
-            PlatformLoad::strut((0, zero), (7, zero), rope(1.0)),
+            PlatformLoad::strut(
+                Anchor::on_platform(0, zero),
+                Anchor::on_platform(7, zero),
+                rope(1.0),
+            ),
             "platform 7",
         ),
         (
-            PlatformLoad::strut((1, zero), (1, Vector3::x()), rope(1.0)),
+            PlatformLoad::strut(
+                Anchor::on_platform(1, zero),
+                Anchor::on_platform(1, Vector3::x()),
+                rope(1.0),
+            ),
             "same platform",
         ),
         (
-            PlatformLoad::strut((0, zero), (0, Vector3::x()), rope(1.0)),
+            PlatformLoad::strut(
+                Anchor::on_platform(0, zero),
+                Anchor::on_platform(0, Vector3::x()),
+                rope(1.0),
+            ),
             "same platform",
         ),
         (
-            PlatformLoad::strut((0, zero), (1, zero), rope(f64::NAN)),
+            PlatformLoad::strut(
+                Anchor::on_platform(0, zero),
+                Anchor::on_platform(1, zero),
+                rope(f64::NAN),
+            ),
             "tension is NaN, a finite number",
         ),
         (

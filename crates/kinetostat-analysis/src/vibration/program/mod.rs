@@ -7,20 +7,16 @@
 //! program is exact for one arc at all heights.
 
 mod along;
-mod cluster;
 mod forced;
 mod judge;
 mod judged;
 mod question;
-mod result;
 mod site;
 mod speeds;
-mod stretches;
 
-pub use along::ProgramChatter;
+pub use along::{ChatterStretch, ProgramChatter};
 pub use forced::ForcedVibration;
 pub use judged::{JudgedSite, Verdict};
 pub use question::{ChatterQuestion, ProgramChatterError};
 pub use site::{CutSite, WithoutSide};
 pub use speeds::StableSpeed;
-pub use stretches::ChatterStretch;

@@ -75,7 +75,8 @@ impl<'q, 'a, 'l> OtherSpeeds<'q, 'a, 'l> {
     pub(crate) fn stable_speed(
         &self,
         rpm: f64,
-        (sites, beside): (&[&JudgedSite], &[&JudgedSite]),
+        sites: &[&JudgedSite],
+        beside: &[&JudgedSite],
     ) -> Result<Option<StableSpeed>, ProgramChatterError> {
         let (from, to, count) = SPEEDS;
         let speeds: Vec<f64> = (0..count)

@@ -35,9 +35,9 @@ fn steps_behind_a_frame_name_the_setting() {
     };
     assert_eq!(open("TRANS X10\nG91\nX10\nX10\n"), [9]);
     assert_eq!(open("TRANS X10\nX=IC(10)\n"), [8]);
-    assert_eq!(open("ATRANS Y10\nG91\nX10\n"), []);
-    assert_eq!(open("TRANS X10\nX20\nG91\nX10\n"), []);
-    assert_eq!(open("TRANS\nG91\nX10\n"), []);
+    assert_eq!(open("ATRANS Y10\nG91\nX10\n"), [0; 0]);
+    assert_eq!(open("TRANS X10\nX20\nG91\nX10\n"), [0; 0]);
+    assert_eq!(open("TRANS\nG91\nX10\n"), [0; 0]);
     // The offset is taken back before the step.
     let found = notes(&format!(
         "{BEGUN}TRANS X10\nG91\nX10\nG90\nATRANS X5\nG91\nX1\nM30\n"

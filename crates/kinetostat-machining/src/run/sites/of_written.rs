@@ -8,10 +8,10 @@ use kinetostat_program::{
 use crate::load::along_path::LoadAlongPath;
 use crate::placement::Placement;
 use crate::result::point::PointKind;
-use crate::run::sites::of_load::{jumps, on_step, places_of_load};
-use crate::run::sites::programmed::{ARC_MM, Programmed, turns};
+use crate::run::sites::of_path::{jumps, on_step, places_of_load};
 use crate::run::sites::site::{
-    Site, commanded_angles, commanded_turn, great_circle, kind, rotary, spacing_mm, starts, stays,
+    ARC_MM, Programmed, Site, commanded_angles, commanded_turn, great_circle, kind, rotary,
+    spacing_mm, starts, stays, turns,
 };
 use crate::task::Task;
 
@@ -67,8 +67,7 @@ impl OfWritten<'_> {
         if !piece.corrected || motion.known == Knowledge::Nothing || stays(motion) {
             return Vec::new();
         }
-        let of_move = (self.starts[piece.move_index], Some(index) == self.first);
-        let along = AlongPiece::new((self.path, self.written), index, of_move);
+        let along = AlongPiece::new(self, index);
         let inside = |k: usize| {
             let number = (self.written.pieces_before() + index) as u64;
             irregular(SEED, number, k as u64)
@@ -77,8 +76,8 @@ impl OfWritten<'_> {
             // A load that does not turn with the step leaves it farthest where it begins or ends.
             let places = [(0.0, false), (inside(0), false), (1.0, true)];
             let on = places.map(|(place, end)| {
-                let load = on_step(piece, &turn, place, self.load, self.placement);
-                along.site(&along.spot(place), load, end)
+                let (wrench, other) = on_step(piece, &turn, place, self.load, self.placement);
+                along.site(&along.spot(place), wrench, other, end)
             });
             return on.into();
         }
@@ -95,7 +94,7 @@ impl OfWritten<'_> {
         let site = |spot: &Spot, is_end: bool| {
             let share = spot.share.max(lowest).min(highest);
             let wrench = self.load.wrench(self.placement, piece.move_index, share);
-            along.site(spot, (wrench, None), is_end)
+            along.site(spot, wrench, None, is_end)
         };
         let mut sites: Vec<Site> = spots.iter().map(|spot| site(spot, false)).collect();
         sites.push(site(&end, true));
@@ -214,13 +213,9 @@ pub(super) struct AlongPiece<'a> {
 }
 
 impl<'a> AlongPiece<'a> {
-    /// Piece `index` of a written program, before whose move the path is so long; `is_first`: before it nobody corrected the
-    /// tool.
-    pub fn new(
-        (path, written): (&'a Path, &'a Corrected),
-        index: usize,
-        (start_mm, is_first): (f64, bool),
-    ) -> Self {
+    /// Piece `index` of a written program.
+    fn new(of_written: &OfWritten<'a>, index: usize) -> Self {
+        let OfWritten { path, written, .. } = *of_written;
         let piece = &written.pieces[index];
         let motion = &path.moves[piece.move_index];
         let angles = commanded_angles(path, written, index);
@@ -235,11 +230,11 @@ impl<'a> AlongPiece<'a> {
             },
             kind: match piece.corner_step {
                 true if piece.turn.is_some_and(|turn| turn.is_entry(path)) => PointKind::Entry,
-                true if is_first => PointKind::Entry,
+                true if Some(index) == of_written.first => PointKind::Entry,
                 true => PointKind::Corner,
                 false => kind(motion),
             },
-            start_mm,
+            start_mm: of_written.starts[piece.move_index],
             turn: commanded_turn(path, written, index),
             circle: ends.and_then(|[from, to]| great_circle(motion, from, to)),
             angles,
@@ -276,7 +271,8 @@ impl<'a> AlongPiece<'a> {
     pub fn site(
         &self,
         spot: &Spot,
-        (wrench, other_wrench): (Wrench, Option<Wrench>),
+        wrench: Wrench,
+        other_wrench: Option<Wrench>,
         end: bool,
     ) -> Site {
         let (piece, motion) = (self.piece, self.motion);

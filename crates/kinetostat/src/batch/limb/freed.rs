@@ -6,7 +6,7 @@
 
 use pulp::Simd;
 
-use crate::batch::numbers::apart::apart;
+use crate::batch::numbers::instruction_set::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::reflection::{reflect, reflect_apart, reflection};
 use crate::batch::numbers::wrenches::Mat6;
@@ -67,7 +67,7 @@ fn without_joints<S: Simd>(
             reflect(k..6, v, u, column);
         }
         for r in 0..width {
-            reflect_apart(k..6, v, u, z.as_flattened_mut(), (r, 12));
+            reflect_apart(k..6, v, u, z.as_flattened_mut(), r, 12);
         }
     }
     (v, u, regular)
@@ -78,7 +78,7 @@ fn without_joints<S: Simd>(
 fn reflect_back<S: Simd>(joints: usize, v: &Mat6<S>, u: &Mat6<S>, k: &mut Mat6<S>) {
     for j in (0..joints).rev() {
         for c in 0..6 {
-            reflect_apart(j..6, &v[j], &u[j], k.as_flattened_mut(), (c, 6));
+            reflect_apart(j..6, &v[j], &u[j], k.as_flattened_mut(), c, 6);
         }
         for row in k.iter_mut() {
             reflect(j..6, &v[j], &u[j], row);

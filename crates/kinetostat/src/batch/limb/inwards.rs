@@ -4,7 +4,7 @@ use pulp::Simd;
 
 use crate::batch::limb::law;
 use crate::batch::limb::loaded::{LoadedLimb, Motion, Tally};
-use crate::batch::numbers::apart::apart;
+use crate::batch::numbers::instruction_set::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::vectors::{Vec3, component, cross};
 use crate::batch::numbers::wrenches::{back, lever, rotated_back, slid};

@@ -2,14 +2,14 @@
 
 use pulp::Simd;
 
-use crate::batch::numbers::apart::apart;
+use crate::batch::numbers::instruction_set::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::symmetric::Symmetric;
 use crate::batch::numbers::wrenches::Mat6;
+use crate::model::springs::bilinear::SingleLaw;
+use crate::model::springs::block::{SpringLaw, if_curved, if_single};
 use crate::model::springs::curved::CurvedLaw;
-use crate::model::springs::law::{SpringLaw, if_curved, if_single};
 use crate::model::springs::parallelogram::ParallelogramLaw;
-use crate::model::springs::single::SingleLaw;
 
 /// Compliance of a parallelogram at its inclination (rad) in the six directions, the missing one
 /// rigid.

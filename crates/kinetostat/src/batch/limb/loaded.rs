@@ -10,15 +10,15 @@
 use pulp::Simd;
 
 use crate::batch::limb::law;
-use crate::batch::limb::motion_axis::MotionAxis;
 use crate::batch::limb::reach::Joints;
+use crate::batch::limb::unloaded::MotionAxis;
 use crate::batch::numbers::lanes::{Lanes, MOST_SQUARE};
 use crate::batch::numbers::symmetric::Symmetric;
 use crate::batch::numbers::vectors::{Mat3, Vec3, identity, select};
 use crate::batch::numbers::wrenches::{Mat6, times};
 use crate::batch::plan::steps::{Joint, Law, Plan, Spring, Step};
 
-/// Passes after which a lane is given up. One of `MOST_CONTRACTION` (see [`super::serial`]) is done in thirty.
+/// Passes after which a lane is given up. One of `MOST_CONTRACTION` (see [`crate::batch::machine::converge`]) is done in thirty.
 pub(crate) const MOST_PASSES: usize = 30;
 
 /// When a lane is done.

@@ -7,18 +7,14 @@
 //! loaded: tau(q) = J^T F,  K_F = [J (K - H)^-1 J^T]^-1                                                    [R 4.16]
 //! ```
 
-pub(crate) mod actuators;
 pub(crate) mod freed;
 pub(crate) mod inwards;
 pub(crate) mod law;
 pub(crate) mod loaded;
-pub(crate) mod motion_axis;
 pub(crate) mod newton;
 pub(crate) mod newton_stage;
 pub(crate) mod outwards;
-pub(crate) mod own_weight;
 pub(crate) mod reach;
-pub(crate) mod serial;
 pub(crate) mod shape;
 pub(crate) mod tangent;
 pub(crate) mod tangent_own_weight;

@@ -24,7 +24,7 @@ use pulp::Simd;
 use crate::batch::limb::law;
 use crate::batch::limb::loaded::LoadedLimb;
 use crate::batch::limb::newton_stage::{Single, Stage, axes, turns, weighs};
-use crate::batch::numbers::apart::apart;
+use crate::batch::numbers::instruction_set::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::vectors::{component, dot, select};
 use crate::batch::numbers::wrenches::{

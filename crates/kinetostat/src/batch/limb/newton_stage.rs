@@ -3,8 +3,8 @@
 use pulp::Simd;
 
 use crate::batch::limb::loaded::LoadedLimb;
-use crate::batch::limb::own_weight::couples;
-use crate::batch::numbers::apart::apart;
+use crate::batch::limb::tangent_own_weight::couples;
+use crate::batch::numbers::instruction_set::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::vectors::{Vec3, cross, dot};
 use crate::batch::numbers::wrenches::{Mat6, back, lever, shift, slid, turn};

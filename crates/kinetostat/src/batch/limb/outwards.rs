@@ -1,15 +1,16 @@
-//! A limb swept from the base to the tip: where its parts lie.
+//! A limb swept from the base to the tip: positions of its parts, and forces of its actuators.
 
 use pulp::Simd;
 
 use crate::batch::limb::loaded::LoadedLimb;
-use crate::batch::limb::motion_axis::{MotionAxis, amount};
-use crate::batch::numbers::apart::apart;
+use crate::batch::limb::unloaded::{MotionAxis, amount};
+use crate::batch::numbers::instruction_set::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::vectors::{
     Mat3, Vec3, carried, column, column_of, constant, cross, dot, identity, matrix, minus, product,
     select, shifted, turn_columns,
 };
+use crate::batch::numbers::wrenches::{lever, rotated_back};
 use crate::batch::plan::steps::{Joint, Law, Plan, Spring, Step, Support};
 use crate::spatial::MotionKind;
 
@@ -215,4 +216,37 @@ fn sin_cos_small<S: Simd>(x: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
     let sine = z.polynomial(&[1.0 / 362_880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0]);
     let cosine = z.polynomial(&[1.0 / 40_320.0, -1.0 / 720.0, 1.0 / 24.0, -0.5, 1.0]);
     ((x * z).times_plus(sine, x), cosine)
+}
+
+/// Adds the force (N) or torque (N m) of the loads on every actuator of a limb where it lies: of the
+/// wrench at its tip and of the weights beyond.
+#[inline(always)]
+pub(crate) fn actuator_forces<S: Simd>(
+    simd: S,
+    plan: &Plan,
+    limb: &LoadedLimb<S>,
+    out: &mut [Lanes<S>],
+) {
+    let (mut force, mut moment) = limb.at_tip();
+    let mut mass = limb.gravity.len();
+    for step in plan.steps.iter().rev() {
+        match step {
+            Step::Mass { at, mass: m } => {
+                mass -= 1;
+                limb.weight(mass, at, *m, &mut force, &mut moment);
+            }
+            Step::Shift(l) => lever(l, &force, &mut moment),
+            Step::Rotate(by) => rotated_back(simd, by, &mut force, &mut moment),
+            Step::Joint(joint) => {
+                let along = limb.joint_bears(joint, &mut force, &mut moment);
+                if let Some((own, ratio)) = joint.amount.command {
+                    out[own] = along.times_plus(along.same(ratio), out[own]);
+                }
+            }
+            Step::Spring(spring) => {
+                let mut torque = limb.spring_bears(spring, &mut force, &mut moment);
+                limb.own_weight(spring, &mut torque, &mut moment);
+            }
+        }
+    }
 }

@@ -5,7 +5,7 @@
 use pulp::Simd;
 
 use crate::batch::limb::unloaded::ForwardPass;
-use crate::batch::numbers::apart::apart;
+use crate::batch::numbers::instruction_set::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::vectors::{
     Mat3, Vec3, carried, column, constant, cross, dot, matrix, minus, select, turn_between,
@@ -73,7 +73,7 @@ impl<S: Simd> Joints<S> {
             return self.point_to(simd, polar, forward, target, plan);
         }
         let search = &plan.searches[0];
-        let away = self.search(simd, plan, search, (forward, target), (MOST_STEPS, one));
+        let away = self.search(plan, search, forward, target, MOST_STEPS, one);
         forward.along(plan, true, search.end, &self.commands, &self.passive);
         one - away
     }
@@ -83,17 +83,17 @@ impl<S: Simd> Joints<S> {
     #[inline(always)]
     pub fn find(
         &mut self,
-        simd: S,
         plan: &Plan,
         forward: &mut ForwardPass<S>,
         target: &Target<S>,
-        (steps, active): (usize, Lanes<S>),
+        steps: usize,
+        active: Lanes<S>,
     ) -> Lanes<S> {
         forward.known = None;
         let mut away = active.same(0.0);
         // One call in one place: the search is large, and every call is a copy of it.
         for search in &plan.searches {
-            let own = self.search(simd, plan, search, (forward, target), (steps, active));
+            let own = self.search(plan, search, forward, target, steps, active);
             away = away.max(own);
         }
         away
@@ -155,12 +155,14 @@ impl<S: Simd> Joints<S> {
     #[inline(always)]
     fn search(
         &mut self,
-        simd: S,
         plan: &Plan,
         search: &Search,
-        (forward, target): (&mut ForwardPass<S>, &Target<S>),
-        (steps, mut active): (usize, Lanes<S>),
+        forward: &mut ForwardPass<S>,
+        target: &Target<S>,
+        steps: usize,
+        mut active: Lanes<S>,
     ) -> Lanes<S> {
+        let simd = active.simd();
         apart!(simd, {
             let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
             let joints = search.passive.len();
@@ -194,20 +196,20 @@ impl<S: Simd> Joints<S> {
                 }
                 let linear = dot(&residual, &residual);
                 let angular = dot(&[e[3], e[4], e[5]], &[e[3], e[4], e[5]]);
-                let with = (&*columns, &mut self.factors);
+                let factors = &mut self.factors;
                 let (square, mut step) = match search.rows {
-                    Rows::Position if unknowns == 3 => (linear, square_step(with.0, &e)),
+                    Rows::Position if unknowns == 3 => (linear, square_step(columns, &e)),
                     Rows::Position => (
                         linear,
-                        least_squares_step::<S, 0, 3>(simd, unknowns, with, &e),
+                        least_squares_step::<S, 0, 3>(simd, unknowns, columns, factors, &e),
                     ),
                     Rows::Rotation => (
                         angular,
-                        least_squares_step::<S, 3, 6>(simd, unknowns, with, &e),
+                        least_squares_step::<S, 3, 6>(simd, unknowns, columns, factors, &e),
                     ),
                     Rows::Both => (
                         linear + angular,
-                        least_squares_step::<S, 0, 6>(simd, unknowns, with, &e),
+                        least_squares_step::<S, 0, 6>(simd, unknowns, columns, factors, &e),
                     ),
                 };
                 let (mut share, mut largest) = (one, zero);
@@ -278,7 +280,8 @@ fn square_step<S: Simd>(columns: &Mat6<S>, e: &[Lanes<S>; 6]) -> [Lanes<S>; 6] {
 fn least_squares_step<S: Simd, const FROM: usize, const TO: usize>(
     simd: S,
     unknowns: usize,
-    (columns, l): (&Mat6<S>, &mut Mat6<S>),
+    columns: &Mat6<S>,
+    l: &mut Mat6<S>,
     e: &[Lanes<S>; 6],
 ) -> [Lanes<S>; 6] {
     apart!(simd, {

@@ -13,8 +13,8 @@ use pulp::Simd;
 
 use crate::batch::limb::law;
 use crate::batch::limb::loaded::{LoadedLimb, deflection, twist, twists};
-use crate::batch::limb::own_weight::{couples, sum_along};
-use crate::batch::numbers::apart::apart;
+use crate::batch::limb::tangent_own_weight::{couples, sum_along};
+use crate::batch::numbers::instruction_set::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::reflection::{reflect, reflect_apart, reflection};
 use crate::batch::numbers::vectors::{Vec3, constant, cross, dot, minus};
@@ -369,7 +369,7 @@ impl<S: Simd> Shape<S> {
                     reflect(k..6, &v, &u, other);
                 }
                 for c in 0..springs {
-                    reflect_apart(k..6, &v, &u, &mut self.t, (c, springs));
+                    reflect_apart(k..6, &v, &u, &mut self.t, c, springs);
                 }
             }
             if joints == 0 {

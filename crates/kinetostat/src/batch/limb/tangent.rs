@@ -18,7 +18,7 @@ use pulp::Simd;
 use crate::batch::limb::freed::freed;
 use crate::batch::limb::law;
 use crate::batch::limb::loaded::{LoadedLimb, deflection, twist, twists};
-use crate::batch::numbers::apart::apart;
+use crate::batch::numbers::instruction_set::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::vectors::{Vec3, cross, dot, minus};
 use crate::batch::numbers::wrenches::{Mat6, dot6, outer, solve_small, weight};
@@ -103,7 +103,7 @@ pub(crate) fn stiffness<S: Simd>(
                     let c = compliance(simd, limb, spring, &mut law, &mut pass.regular);
                     match &spring.own_weight {
                         None => pass.spring(plan, limb, spring, &c),
-                        Some(own) => pass.segment(plan, limb, (spring, own), &c, gravity),
+                        Some(own) => pass.segment(plan, limb, spring, own, &c, gravity),
                     }
                 }
                 Step::Shift(_) | Step::Rotate(_) => {}

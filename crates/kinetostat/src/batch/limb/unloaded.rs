@@ -8,15 +8,15 @@
 use pulp::Simd;
 
 use crate::batch::limb::law;
-use crate::batch::limb::motion_axis::{MotionAxis, amount};
-use crate::batch::numbers::apart::apart;
 use crate::batch::numbers::eliminate::{Eliminated, LimbStiffness};
+use crate::batch::numbers::instruction_set::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::symmetric::Symmetric;
 use crate::batch::numbers::vectors::{
-    Mat3, Vec3, carried, column, constant, cross, dot, identity, matrix, product, turn_columns,
+    Mat3, Vec3, carried, column, constant, cross, dot, identity, matrix, minus, product,
+    turn_columns,
 };
-use crate::batch::plan::steps::{Drive, Joint, Law, Plan, Step, Support};
+use crate::batch::plan::steps::{Amount, Drive, Joint, Law, Plan, Step, Support};
 use crate::spatial::MotionKind;
 
 type SineCosine<S> = (Lanes<S>, Lanes<S>);
@@ -88,15 +88,15 @@ impl<S: Simd> ForwardPass<S> {
                             _ => None,
                         };
                         let amount = amount(simd, &joint.amount, commands, coordinate);
-                        let known = match &self.known {
+                        let (s, c) = match &self.known {
                             Some((first, known)) if i.wrapping_sub(*first) < 2 => known[i - first],
                             _ if joint.kind == MotionKind::Revolute => amount.sin_cos(),
                             _ => (amount, amount),
                         };
                         match joint.axis {
-                            0 => self.joint::<0>(joint, amount, known, yields),
-                            1 => self.joint::<1>(joint, amount, known, yields),
-                            _ => self.joint::<2>(joint, amount, known, yields),
+                            0 => self.joint::<0>(joint, amount, s, c, yields),
+                            1 => self.joint::<1>(joint, amount, s, c, yields),
+                            _ => self.joint::<2>(joint, amount, s, c, yields),
                         }
                     }
                     Step::Spring(spring) if yields => {
@@ -140,7 +140,8 @@ impl<S: Simd> ForwardPass<S> {
         &mut self,
         joint: &Joint,
         amount: Lanes<S>,
-        (s, c): (Lanes<S>, Lanes<S>),
+        s: Lanes<S>,
+        c: Lanes<S>,
         yields: bool,
     ) {
         let axis = column(&self.rotation, AXIS);
@@ -290,4 +291,47 @@ impl<S: Simd> ForwardPass<S> {
         }
         LimbStiffness { matrix, regular }
     }
+}
+
+/// Axis and place of a motion that a coordinate or a command drives, base axes.
+#[derive(Clone, Copy)]
+pub(crate) struct MotionAxis<S: Simd> {
+    pub axis: Vec3<S>,
+    pub origin: Vec3<S>,
+}
+
+impl<S: Simd> MotionAxis<S> {
+    /// Twist of a body at `point` per unit of the motion, base axes.
+    #[inline(always)]
+    pub fn twist(&self, kind: MotionKind, point: &Vec3<S>) -> [Lanes<S>; 6] {
+        let Self { axis, origin } = self;
+        match kind {
+            MotionKind::Revolute => {
+                let v = cross(axis, &minus(point, origin));
+                [v[0], v[1], v[2], axis[0], axis[1], axis[2]]
+            }
+            MotionKind::Prismatic => {
+                let zero = axis[0].same(0.0);
+                [axis[0], axis[1], axis[2], zero, zero, zero]
+            }
+        }
+    }
+}
+
+/// `fixed + ratio * command + ratio * coordinate`.
+#[inline(always)]
+pub(crate) fn amount<S: Simd>(
+    simd: S,
+    amount: &Amount,
+    commands: &[Lanes<S>],
+    coordinate: Option<Lanes<S>>,
+) -> Lanes<S> {
+    let mut sum = Lanes::new(simd, amount.fixed);
+    if let Some((index, ratio)) = amount.command {
+        sum = commands[index].times_plus(sum.same(ratio), sum);
+    }
+    if let (Some((_, ratio)), Some(value)) = (amount.coordinate, coordinate) {
+        sum = value.times_plus(sum.same(ratio), sum);
+    }
+    sum
 }

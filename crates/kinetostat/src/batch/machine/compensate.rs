@@ -9,7 +9,7 @@
 use pulp::Simd;
 
 use crate::batch::machine::loaded::Machine;
-use crate::batch::numbers::apart::apart;
+use crate::batch::numbers::instruction_set::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::vectors::{minus, select, turn_between, turned};
 use crate::spatial::Directions;

@@ -7,8 +7,8 @@
 
 use pulp::Simd;
 
-use crate::batch::numbers::apart::apart;
 use crate::batch::numbers::eliminate::Eliminated;
+use crate::batch::numbers::instruction_set::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::symmetric::Symmetric;
 use crate::batch::numbers::vectors::select;

@@ -10,7 +10,7 @@ use pulp::Simd;
 
 use crate::batch::limb::reach::Target;
 use crate::batch::machine::loaded::Machine;
-use crate::batch::numbers::apart::apart;
+use crate::batch::numbers::instruction_set::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::vectors::{minus, select, turn_between, turned};
 use crate::spatial::Directions;
@@ -38,7 +38,8 @@ impl<S: Simd> Machine<S> {
     pub fn look_back(
         &mut self,
         simd: S,
-        (place, load): (&Target<S>, &[Lanes<S>; 6]),
+        place: &Target<S>,
+        load: &[Lanes<S>; 6],
         lost: Lanes<S>,
     ) -> Lanes<S> {
         apart!(simd, {

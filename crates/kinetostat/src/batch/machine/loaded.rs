@@ -4,14 +4,13 @@ use std::sync::Arc;
 
 use pulp::Simd;
 
-use crate::batch::limb::actuators;
 use crate::batch::limb::loaded::{EXACT, LoadedLimb, Precision};
 use crate::batch::limb::newton::Newton;
+use crate::batch::limb::outwards::actuator_forces;
 use crate::batch::limb::reach::{Joints, Target};
 use crate::batch::limb::shape::Shape;
 use crate::batch::limb::unloaded::ForwardPass;
 use crate::batch::machine::corrector::AttachedLimb;
-use crate::batch::machine::trend::Trend;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::symmetric::Symmetric;
 use crate::batch::numbers::vectors::{Mat3, Vec3, identity};
@@ -31,6 +30,15 @@ pub(crate) fn bounded<S: Simd>(simd: S, commands: &[Lanes<S>]) -> Lanes<S> {
     good
 }
 
+/// Mass of the platform that carries the tool.
+#[derive(Clone, Copy)]
+pub(crate) struct PlatformMass {
+    /// Centre of mass, m, axes of the tool.
+    pub centre: [f64; 3],
+    /// Mass, kg.
+    pub mass: f64,
+}
+
 /// A machine with the buffers of its limbs.
 pub(crate) struct Machine<S: Simd> {
     pub nominal: Arc<[Plan]>,
@@ -44,8 +52,7 @@ pub(crate) struct Machine<S: Simd> {
     pub attached: Vec<AttachedLimb<S>>,
     /// Inverse of the unloaded stiffness of the platform.
     pub compliance: Symmetric<S>,
-    /// Centre of mass (m, axes of the tool) and mass of the platform.
-    pub body: ([f64; 3], f64),
+    pub body: PlatformMass,
     pub gravity: [f64; 3],
     /// Target of the unloaded machine for which `attached` and `compliance` were computed, and the smallest relative
     /// pivot there.
@@ -76,7 +83,7 @@ impl<S: Simd> Machine<S> {
         simd: S,
         nominal: &Arc<[Plan]>,
         actual: &Arc<[Plan]>,
-        body: ([f64; 3], f64),
+        body: PlatformMass,
         gravity: [f64; 3],
     ) -> Self {
         let plans = || nominal.iter().zip(actual.iter());
@@ -128,7 +135,7 @@ impl<S: Simd> Machine<S> {
         &mut self,
         nominal: &Arc<[Plan]>,
         actual: &Arc<[Plan]>,
-        body: ([f64; 3], f64),
+        body: PlatformMass,
         gravity: [f64; 3],
     ) {
         if !Arc::ptr_eq(&self.nominal, nominal) {
@@ -146,7 +153,7 @@ impl<S: Simd> Machine<S> {
         let mut first = 0;
         for (limb, plan) in self.limbs.iter().zip(self.actual.iter()) {
             let own = &mut self.forces[first..first + plan.commands];
-            actuators::forces(simd, plan, limb, own);
+            actuator_forces(simd, plan, limb, own);
             first += plan.commands;
         }
     }
@@ -175,6 +182,64 @@ impl<S: Simd> Machine<S> {
 
     /// One limb without passive joints: its tip goes where the wrench leads.
     pub fn is_serial(&self) -> bool {
-        self.actual.len() == 1 && self.actual[0].passive.is_empty() && self.body.1 == 0.0
+        self.actual.len() == 1 && self.actual[0].passive.is_empty() && self.body.mass == 0.0
+    }
+}
+
+/// State at the posture before.
+pub(crate) struct Trend<S: Simd> {
+    /// One in the lanes where it was found.
+    pub known: Lanes<S>,
+    pub place: Target<S>,
+    pub load: [Lanes<S>; 6],
+    /// Numbers of the posture at hand, in the order of `Machine::note_all`, and by how much they have changed since the one before.
+    last: Vec<Lanes<S>>,
+    change: Vec<Lanes<S>>,
+}
+
+impl<S: Simd> Trend<S> {
+    pub fn new(simd: S) -> Self {
+        let zero = Lanes::new(simd, 0.0);
+        Self {
+            known: zero,
+            place: Target {
+                rotation: identity(simd),
+                point: [zero; 3],
+            },
+            load: [zero; 6],
+            last: Vec::new(),
+            change: Vec::new(),
+        }
+    }
+
+    /// Marks the next posture as one without a neighbour.
+    #[inline(always)]
+    pub fn forget(&mut self, simd: S) {
+        self.known = Lanes::new(simd, 0.0);
+    }
+
+    #[inline(always)]
+    pub fn note(&mut self, index: &mut usize, numbers: &[Lanes<S>]) {
+        for now in numbers {
+            if *index == self.last.len() {
+                self.last.push(*now);
+                self.change.push(*now);
+            }
+            self.change[*index] = *now - self.last[*index];
+            self.last[*index] = *now;
+            *index += 1;
+        }
+    }
+
+    /// Changes numbers by a share of their last change.
+    #[inline(always)]
+    pub fn go_on(&self, from: &mut usize, share: Lanes<S>, numbers: &mut [Lanes<S>]) {
+        let zero = share.same(0.0);
+        for x in numbers {
+            let to = self.change[*from].times_plus(share, *x);
+            // Numbers of a posture that was not found may be NaN.
+            *x = zero.where_less(share, to, *x);
+            *from += 1;
+        }
     }
 }

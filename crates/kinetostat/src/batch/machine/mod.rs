@@ -14,6 +14,4 @@ pub(crate) mod group;
 pub(crate) mod kept;
 pub(crate) mod loaded;
 pub(crate) mod platform;
-pub(crate) mod stability;
 pub(crate) mod start;
-pub(crate) mod trend;

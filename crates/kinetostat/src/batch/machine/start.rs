@@ -24,7 +24,8 @@ impl<S: Simd> Machine<S> {
         &mut self,
         simd: S,
         group: &Group,
-        (commands, each): (&[f64], usize),
+        commands: &[f64],
+        each: usize,
     ) -> Lanes<S> {
         group.commands(simd, commands, each, &mut self.joints[0].commands);
         let good = bounded(simd, &self.joints[0].commands);
@@ -68,7 +69,9 @@ impl<S: Simd> Machine<S> {
         simd: S,
         group: &Group,
         place: Target<S>,
-        (joints, standing, first): (&Table, Option<(&Standing, &[f64])>, usize),
+        joints: &Table,
+        standing: Option<(&Standing, &[f64])>,
+        first: usize,
     ) -> Lanes<S> {
         let joints = joints.columns().from(first);
         let mut all = Lanes::new(simd, 0.0);
@@ -171,12 +174,13 @@ impl<S: Simd> Machine<S> {
     pub fn go_on(
         &mut self,
         simd: S,
-        (place, wrench): (Target<S>, &[Lanes<S>; 6]),
+        place: Target<S>,
+        wrench: &[Lanes<S>; 6],
         directions: Option<Directions>,
     ) -> Lanes<S> {
         let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
         let lost = (zero + REGULAR).where_less(self.found, zero, one);
-        let share = self.look_back(simd, (&place, wrench), lost);
+        let share = self.look_back(simd, &place, wrench, lost);
         let shift = minus(&place.point, &self.place.point);
         let turn = product_transposed(&place.rotation, &self.place.rotation);
         let rotation = product(&turn, &self.rotation);
@@ -222,7 +226,7 @@ impl<S: Simd> Machine<S> {
         let mut away = Lanes::new(simd, 0.0);
         let limbs = self.nominal.iter().zip(&mut self.joints);
         for ((plan, joints), (forward, _)) in limbs.zip(&mut self.passes) {
-            away = away.max(joints.find(simd, plan, forward, &self.target, (steps, active)));
+            away = away.max(joints.find(plan, forward, &self.target, steps, active));
         }
         away
     }

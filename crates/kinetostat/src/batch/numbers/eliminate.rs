@@ -2,7 +2,7 @@
 
 use pulp::Simd;
 
-use crate::batch::numbers::apart::apart;
+use crate::batch::numbers::instruction_set::apart;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::reflection::{reflect, reflection};
 use crate::batch::numbers::symmetric::Symmetric;

@@ -1,4 +1,4 @@
-//! Processors for which the kernels are compiled, and choice of the one for a call.
+//! Processors for which the kernels are compiled, choice of the one for a call, and calls between the parts of a kernel.
 //!
 //! With the feature `simd` they are compiled for the widest registers that `pulp` knows of a processor (AVX-512 or
 //! AVX2, NEON), for AVX2 and for single numbers. A build with debug assertions has no AVX-512, and no fused
@@ -137,4 +137,42 @@ pub(crate) fn singly<W: WithSimd>(part: W) -> W::Output {
 #[inline(never)]
 pub(crate) fn singly<W: WithSimd>(part: W) -> W::Output {
     part.with_simd(Scalar)
+}
+
+/// What a kernel calls must be inlined, for a function by itself does not know the instruction set. Inlined
+/// everywhere a kernel became one function of half a megabyte, for every instruction set, and compiling it
+/// took six minutes. [`apart!`] makes a function of its own for the instruction set at hand, compiled once
+/// and called from wherever it is used.
+struct Part<F>(F);
+
+impl<F: FnOnce() -> R, R> WithSimd for Part<F> {
+    type Output = R;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> R {
+        (self.0)()
+    }
+}
+
+/// `apart!(simd, { body })`: the body of a kernel's function, compiled once for every instruction set and
+/// called from wherever the function is used. A `return` in it ends the body.
+macro_rules! apart {
+    ($simd:expr, $body:block) => {
+        $crate::batch::numbers::instruction_set::call(
+            $simd,
+            #[inline(always)]
+            || $body,
+        )
+    };
+}
+pub(crate) use apart;
+
+/// Calls a part of a kernel in a function of its own.
+#[inline(always)]
+pub(crate) fn call<S: Simd, R>(simd: S, part: impl FnOnce() -> R) -> R {
+    // Single numbers do not tell whether the fused multiply-adds of a wide instruction set are there.
+    if S::F64_LANES == 1 {
+        return singly(Part(part));
+    }
+    simd.vectorize(Part(part))
 }

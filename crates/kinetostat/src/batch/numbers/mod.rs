@@ -7,7 +7,6 @@
 //! shifted wrench: (f, m + r x f);  symmetric 6 x 6 by 21 numbers;  elimination by reflections I - 2 v v^T / v^T v
 //! ```
 
-pub(crate) mod apart;
 pub(crate) mod eliminate;
 pub(crate) mod instruction_set;
 pub(crate) mod lanes;

@@ -69,7 +69,8 @@ pub(crate) fn reflect_apart<S: Simd>(
     v: &[Lanes<S>],
     u: &[Lanes<S>],
     x: &mut [Lanes<S>],
-    (first, stride): (usize, usize),
+    first: usize,
+    stride: usize,
 ) {
     let mut along = v[0].same(0.0);
     for i in places.clone() {

@@ -3,16 +3,15 @@
 
 use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
-use crate::batch::plan::segments::{begins_at, halves_at, own_weight};
 use crate::batch::plan::steps::{
     Amount, Drive, Joint, Law, Plan, Polar, Rows, Screw, Search, Sphere, Spring, Step, Support,
+    begins_at, halves_at, own_weight,
 };
 use crate::batch::status::NoKernel;
 use crate::model::chain::{Chain, Element, Motion, Role};
 use crate::model::kinematics::Kinematics;
-use crate::model::springs::block::{SpringBlock, SpringLaw};
+use crate::model::springs::block::{SpringBlock, SpringLaw, if_curved, if_single};
 use crate::model::springs::curved::CurvedLaw;
-use crate::model::springs::law::{if_curved, if_single};
 use crate::spatial::{MotionKind, Pose};
 
 impl Plan {
@@ -62,8 +61,7 @@ impl Plan {
         let sphere = sphere(&writer.steps, &writer.screws);
         let joints = passive.len();
         let search = |rows, passive, end| {
-            let drives = (passive_drives.as_slice(), command_drives.as_slice());
-            writer.search(rows, passive, end, drives)
+            writer.search(rows, passive, end, &passive_drives, &command_drives)
         };
         let searches = match &sphere {
             None => vec![search(Rows::Both, 0..joints, writer.steps.len())],
@@ -160,7 +158,8 @@ impl Writer<'_> {
         rows: Rows,
         passive: std::ops::Range<usize>,
         end: usize,
-        (passive_drives, command_drives): (&[Drive], &[Drive]),
+        passive_drives: &[Drive],
+        command_drives: &[Drive],
     ) -> Search {
         let mut drives = Vec::new();
         let mut most = [self.chain.scale().length; 6];

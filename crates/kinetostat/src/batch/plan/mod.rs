@@ -7,5 +7,4 @@
 //! ```
 
 pub(crate) mod compile;
-pub(crate) mod segments;
 pub(crate) mod steps;

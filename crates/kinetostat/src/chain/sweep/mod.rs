@@ -9,7 +9,6 @@
 //! stage by stage from the tip: three 6 x 6 matrices carry all that lies beyond
 //! ```
 
-pub(crate) mod end_spring;
 pub(crate) mod factor;
 pub(crate) mod solve;
 pub(crate) mod stages;

@@ -5,8 +5,7 @@ use std::ops::Deref;
 
 use nalgebra::{DMatrix, DVector, Dyn, LU, Matrix6, Vector6};
 
-use crate::chain::sweep::end_spring::{END_SPRINGS, EndSpring};
-use crate::chain::sweep::factor::Factored;
+use crate::chain::sweep::factor::{END_SPRINGS, EndSpring, Factored};
 use crate::chain::sweep::stages::{Form, Sweep, column};
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{Inertia, RANK_TOLERANCE, Saddle, column_space};

@@ -3,15 +3,14 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::chain::equilibrium::{disparate, rounding};
-use crate::chain::material::{MaterialUnits, material_springs};
+use crate::chain::graded::{MaterialUnits, material_springs};
 use crate::chain::residual::ResidualNorms;
 use crate::chain::sweep::stages::{ChainMethod, turned_rows};
 use crate::continuation::chain::system::ChainSystem;
 use crate::continuation::linear::curve_matrix::CurveMatrix;
 use crate::continuation::linear::curve_sweep::CurveSweep;
-use crate::continuation::linear::dense_matrix::{StateUnits, Whole};
-use crate::continuation::linear::null_directions::NullDirections;
-use crate::continuation::parameter::Parameter;
+use crate::continuation::linear::tangent::{NullDirections, StateUnits, Whole};
+use crate::continuation::settings::Parameter;
 use crate::model::chain::Role;
 use crate::number::larger;
 use crate::spatial::{Twist, Wrench, moved, pose_residual, rotation_rate};
@@ -113,7 +112,7 @@ impl ChainSystem<'_, '_> {
     }
 
     pub(super) fn scaled_jacobian(&self) -> DMatrix<f64> {
-        crate::chain::passive::scaled_jacobian(&self.equations, &self.scaling)
+        crate::chain::directions::scaled_jacobian(&self.equations, &self.scaling)
     }
 
     /// Columns of the passive joints in `[R^T J; H]`, scaled.

@@ -7,8 +7,6 @@
 //! G(x, f, lambda) = (g(x) - t(lambda), tau(x) + sum J_j^T G_j(lambda) + J^T f) = 0
 //! ```
 
-pub(crate) mod corrector;
-pub(crate) mod curve;
 pub(crate) mod linearisation;
 pub(crate) mod stability;
 pub(crate) mod start;

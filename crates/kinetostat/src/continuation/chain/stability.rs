@@ -2,14 +2,14 @@
 
 use nalgebra::{DMatrix, DVector, Vector6};
 
-use crate::chain::equilibrium::Equilibrium;
+use crate::chain::equilibrium::{Equilibrium, Solution};
 use crate::chain::problem::ChainProblem;
 use crate::chain::residual::ResidualNorms;
 use crate::chain::stability::{ShapeStability, stability_within, swept_stability_within};
 use crate::chain::sweep::solve::EndMotions;
 use crate::continuation::chain::system::ChainSystem;
 use crate::continuation::linear::curve_matrix::CurveMatrix;
-use crate::continuation::parameter::Parameter;
+use crate::continuation::settings::Parameter;
 use crate::continuation::tracing::system::Corrected;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::column_space;
@@ -190,11 +190,13 @@ impl ChainSystem<'_, '_> {
         let mut equilibrium = self.equations.equilibrium(
             self.problem.chain,
             &self.scaling,
-            self.coordinates(&c.z),
-            self.wrench(&c.z),
+            Solution {
+                coordinates: self.coordinates(&c.z),
+                wrench: self.wrench(&c.z),
+                iterations: c.iterations,
+                norms: raw,
+            },
             self.conservative,
-            c.iterations,
-            &raw,
             swept,
         );
         if let Some(family) = &self.family {

@@ -3,12 +3,13 @@
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 
 use crate::chain::equilibrium::{System, scales_of};
-use crate::chain::potential::is_conservative;
-use crate::chain::problem::{ChainProblem, Prescribed, check_numbers, check_problem};
+use crate::chain::problem::{
+    ChainProblem, Prescribed, check_numbers, check_problem, is_conservative,
+};
 use crate::chain::scaling::{natural, nudged};
 use crate::chain::sweep::stages::ChainMethod;
 use crate::continuation::chain::system::ChainSystem;
-use crate::continuation::parameter::Parameter;
+use crate::continuation::settings::Parameter;
 use crate::error::{Error, Result};
 use crate::linalg::saddle::{RANK_TOLERANCE, column_space};
 use crate::linalg::singular_values::SingularValues;

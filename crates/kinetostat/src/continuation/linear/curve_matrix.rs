@@ -7,9 +7,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::continuation::linear::curve_sweep::CurveSweep;
-use crate::continuation::linear::dense_matrix::{Whole, bordered};
 use crate::continuation::linear::family::Family;
-use crate::continuation::linear::tangent::Tangent;
+use crate::continuation::linear::tangent::{Tangent, Whole, bordered};
 
 /// `[dG/du dG/dlambda]`, m x (m + 1), scaled.
 pub(crate) enum CurveMatrix {

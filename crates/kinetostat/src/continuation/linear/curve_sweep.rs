@@ -14,8 +14,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
-use crate::chain::sweep::end_spring::STEP_SPRINGS;
-use crate::chain::sweep::factor::Factored;
+use crate::chain::sweep::factor::{Factored, STEP_SPRINGS};
 use crate::chain::sweep::solve::EndRows;
 use crate::chain::sweep::stages::{Form, Sweep, column};
 use crate::continuation::linear::tangent::{Tangent, determinant};

@@ -17,7 +17,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::continuation::linear::dense_matrix::Whole;
+use crate::continuation::linear::tangent::Whole;
 
 /// Motions that lead from one equilibrium to another at the same value of the parameter.
 #[derive(Clone, Debug)]

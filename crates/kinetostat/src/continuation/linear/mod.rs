@@ -5,7 +5,5 @@
 
 pub(crate) mod curve_matrix;
 pub(crate) mod curve_sweep;
-pub(crate) mod dense_matrix;
 pub(crate) mod family;
-pub(crate) mod null_directions;
 pub(crate) mod tangent;

@@ -3,9 +3,8 @@
 use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::chain::directions::{Direction, DirectionKind, motion_description};
-use crate::chain::found_by::FoundBy;
 use crate::chain::problem::EndCondition;
-use crate::chain::residual::Residual;
+use crate::chain::residual::{FoundBy, Residual};
 use crate::continuation::machine::tool_conditions::ToolConditions;
 use crate::continuation::settings::CurveSettings;
 use crate::error::Error;

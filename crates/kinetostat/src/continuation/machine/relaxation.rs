@@ -9,8 +9,7 @@
 //! are rated by the potential: the unbalanced wrench grows across the narrow and curved valley in which the platform goes, the
 //! potential does not.
 
-use crate::chain::found_by::FoundBy;
-use crate::chain::residual::Residual;
+use crate::chain::residual::{FoundBy, Residual};
 use crate::chain::system::Hessian;
 use crate::machine::equilibrium::potential;
 use crate::machine::platforms::newton::Iterate;

@@ -17,20 +17,17 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector6};
 
-use crate::chain::found_by::FoundBy;
-use crate::chain::residual::ResidualNorms;
+use crate::chain::residual::{FoundBy, ResidualNorms};
 use crate::continuation::curve::CurvePoint;
 use crate::continuation::linear::curve_matrix::CurveMatrix;
-use crate::continuation::linear::dense_matrix::Whole;
 use crate::continuation::linear::family::Family;
-use crate::continuation::linear::null_directions::NullDirections;
+use crate::continuation::linear::tangent::{NullDirections, Whole};
 use crate::continuation::machine::tool_conditions::ToolConditions;
 use crate::continuation::machine::tool_stability::{MachineStability, condensed_modes};
 use crate::continuation::settings::CurveSettings;
 use crate::continuation::tracing::describe::{describe, tangent};
 use crate::continuation::tracing::special_points::NO_RATE;
-use crate::continuation::tracing::state_distance::off_segment;
-use crate::continuation::tracing::system::{Corrected, CurveSystem, Row};
+use crate::continuation::tracing::system::{Corrected, CurveSystem, Row, off_segment};
 use crate::error::{Error, Result};
 use crate::linalg::complement::complement;
 use crate::machine::equilibrium::{LimbEquilibrium, MechanismEquilibrium};

@@ -3,9 +3,9 @@
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 
 use crate::chain::directions::{Direction, DirectionKind};
-use crate::chain::divergence::{TangentMotions, diverging_motions};
 use crate::chain::graded::{levels, root_rows};
-use crate::continuation::curve_equilibrium::{CurveEquilibrium, CurveStability};
+use crate::chain::stability::{TangentMotions, diverging_motions};
+use crate::continuation::curve::{CurveEquilibrium, CurveStability};
 use crate::continuation::machine::tool_conditions::ToolConditions;
 use crate::linalg::complement::complement;
 use crate::machine::directions::without;

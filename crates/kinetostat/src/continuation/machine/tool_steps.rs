@@ -26,19 +26,35 @@ pub(crate) struct ToolPoint {
     /// Every shape and platform stays where it is under the load that is reached, as a dead load.
     pub dead: bool,
     pub equilibrium: MechanismEquilibrium,
-    /// Motion of the tool (scaled: m and rad times the natural length) and of the load factor per
-    /// step along the path.
-    tangent: (Vector6<f64>, f64),
+    tangent: ToolTangent,
     factor: f64,
 }
+
+/// Direction of the path.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ToolTangent {
+    /// Motion of the tool per step (scaled: m and rad times the natural length).
+    motion: Vector6<f64>,
+    /// Change of the load factor per step.
+    rate: f64,
+}
+
+/// Direction in which the load changes and the tool does not move.
+const LOAD_ALONE: ToolTangent = ToolTangent {
+    motion: Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    rate: 1.0,
+};
 
 impl ToolPoint {
     /// Orients the tangent along the tool's last motion, whatever the load did on the step: over a limit of the load
     /// its rate changes its sign, and the motion continues.
     pub(crate) fn onwards_from(mut self, before: &Self) -> Self {
-        let (motion, rate) = self.tangent;
-        if motion.dot(&before.tangent.0) < 0.0 {
-            self.tangent = (-motion, -rate);
+        let ToolTangent { motion, rate } = self.tangent;
+        if motion.dot(&before.tangent.motion) < 0.0 {
+            self.tangent = ToolTangent {
+                motion: -motion,
+                rate: -rate,
+            };
         }
         self
     }
@@ -48,7 +64,15 @@ impl ToolConditions<'_> {
     /// The first point of steps along a driven motion.
     pub(crate) fn first(&self, displacement: f64) -> Result<ToolPoint> {
         let (e, factor) = self.first_driven(displacement)?;
-        Ok(self.point(e, factor, &(self.pattern.0, 0.0)))
+        Ok(self.point(e, factor, &self.along_pattern()))
+    }
+
+    /// Direction of a motion along the load pattern under a constant load.
+    fn along_pattern(&self) -> ToolTangent {
+        ToolTangent {
+            motion: self.pattern.0,
+            rate: 0.0,
+        }
     }
 
     /// A point with its tangent, which goes on as `before` goes.
@@ -56,7 +80,7 @@ impl ToolConditions<'_> {
         &self,
         e: MechanismEquilibrium,
         factor: f64,
-        before: &(Vector6<f64>, f64),
+        before: &ToolTangent,
     ) -> ToolPoint {
         let tangent = self.tangent(&e, before);
         let motion = self.motion(&e.tool);
@@ -77,11 +101,7 @@ impl ToolConditions<'_> {
 
     /// Null vector of `[K, -P]` in the motions of the tool that goes on as `before`; its motion has
     /// the length one.
-    pub(crate) fn tangent(
-        &self,
-        e: &MechanismEquilibrium,
-        before: &(Vector6<f64>, f64),
-    ) -> (Vector6<f64>, f64) {
+    pub(crate) fn tangent(&self, e: &MechanismEquilibrium, before: &ToolTangent) -> ToolTangent {
         let possible = self.possible(e, &self.motions);
         let n = possible.ncols();
         let k = possible.transpose() * self.scaled_stiffness(e) * &possible;
@@ -90,7 +110,7 @@ impl ToolConditions<'_> {
         // One unit for all points, or the tangent's sense would be lost where the stiffness is.
         let (stiff, push) = (self.posture.mechanism.scale().stiffness, load.norm());
         if n == 0 || push == 0.0 {
-            return (Vector6::zeros(), 1.0);
+            return LOAD_ALONE;
         }
         let unit = stiff / push;
         let mut rows = DMatrix::zeros(n + 1, n + 1);
@@ -99,8 +119,8 @@ impl ToolConditions<'_> {
         let own = crate::linalg::singular_values::SingularValues::of(&rows);
         let most = own.largest();
         let was = DVector::from_fn(n + 1, |i, _| match i < n {
-            true => possible.column(i).dot(&before.0),
-            false => before.1 / unit,
+            true => possible.column(i).dot(&before.motion),
+            false => before.rate / unit,
         });
         let mut next = DVector::zeros(n + 1);
         for (own, value) in own.right.column_iter().zip(&own.values) {
@@ -126,12 +146,18 @@ impl ToolConditions<'_> {
             return *before;
         }
         let motion = Vector6::from_fn(|i, _| motion[i] / size);
-        (motion, next[n] * unit / size)
+        ToolTangent {
+            motion,
+            rate: next[n] * unit / size,
+        }
     }
 
     /// The equilibrium a step `by` (m, scaled) along the path from a point.
     pub(crate) fn step(&self, from: &ToolPoint, by: f64) -> Option<ToolPoint> {
-        let (along, rate) = &from.tangent;
+        let ToolTangent {
+            motion: along,
+            rate,
+        } = &from.tangent;
         let mut state = from.equilibrium.state.clone();
         let tool = self.posture.mechanism.tool();
         let motion = self.unscaled(along) * by;
@@ -168,12 +194,16 @@ impl ToolConditions<'_> {
         let (least, most) = self.settings.conjugate_range;
         let change = (self.settings.largest_change).unwrap_or(0.05 * (high - low));
         let rate = |p: &ToolPoint| {
-            let along = self.displacement(&self.unscaled(&p.tangent.0));
-            let by = if self.by_motion { along } else { p.tangent.1 };
+            let along = self.displacement(&self.unscaled(&p.tangent.motion));
+            let by = if self.by_motion {
+                along
+            } else {
+                p.tangent.rate
+            };
             by.abs()
         };
         let edge = if sign > 0.0 { high } else { low };
-        if start.parameter == edge || start.tangent.0.norm() == 0.0 {
+        if start.parameter == edge || start.tangent.motion.norm() == 0.0 {
             return (Vec::new(), BranchEnd::Range);
         }
         // For a load that starts at zero, the machine's size sets the step.
@@ -185,18 +215,18 @@ impl ToolConditions<'_> {
         // Turns of the tangent are seen in units in which it starts at 45 degrees, if it has any
         // stiffness to speak of.
         let soft = 1e-4 * self.posture.mechanism.scale().stiffness / self.pattern.0.norm();
-        let unit = start.tangent.1.abs().max(soft);
+        let unit = start.tangent.rate.abs().max(soft);
         let angle = |a: &ToolPoint, b: &ToolPoint| {
             let (x, y) = (&a.tangent, &b.tangent);
-            let dot = x.0.dot(&y.0) + x.1 * y.1 / (unit * unit);
-            let size = |t: &(Vector6<f64>, f64)| (1.0 + (t.1 / unit).powi(2)).sqrt();
+            let dot = x.motion.dot(&y.motion) + x.rate * y.rate / (unit * unit);
+            let size = |t: &ToolTangent| (1.0 + (t.rate / unit).powi(2)).sqrt();
             (dot / (size(x) * size(y))).clamp(-1.0, 1.0).acos()
         };
         // Below these units a limit of the load would be passed unseen: there the load that a step
         // gained must be that of its tangents.
         let nothing = 1e-6 * soft;
         let resolved = |a: &ToolPoint, b: &ToolPoint, by: f64| {
-            let (x, y) = (a.tangent.1, b.tangent.1);
+            let (x, y) = (a.tangent.rate, b.tangent.rate);
             let most = x.abs().max(y.abs());
             let apart = (b.factor - a.factor) / by - 0.5 * (x + y);
             x == 0.0 || most > soft || most < nothing || apart.abs() < 0.1 * most
@@ -286,7 +316,7 @@ impl ToolConditions<'_> {
             self.motion(&a.equilibrium.tool),
             self.motion(&b.equilibrium.tool),
         );
-        let along = &a.tangent.0;
+        let along = &a.tangent.motion;
         (0..6)
             .map(|k| along[k] * (y[k] - x[k]) * self.unit(k))
             .sum()
@@ -294,7 +324,7 @@ impl ToolConditions<'_> {
 
     /// Extremum of the load between two points.
     pub(crate) fn load_limit(&self, a: &ToolPoint, b: &ToolPoint, step: f64) -> Option<ToolPoint> {
-        let load = |p: &ToolPoint| p.tangent.1;
+        let load = |p: &ToolPoint| p.tangent.rate;
         (load(a) * load(b) < 0.0)
             .then(|| self.between(a, step, load))
             .flatten()
@@ -308,7 +338,7 @@ impl ToolConditions<'_> {
         none: impl Fn(&ToolPoint) -> bool,
     ) -> Result<(Option<ToolPoint>, Option<ToolPoint>)> {
         let (e, factor) = self.first_loaded(0.0, start)?;
-        let start = self.point(e, factor, &(Vector6::zeros(), 1.0));
+        let start = self.point(e, factor, &LOAD_ALONE);
         let (ahead, end) = self.steps_from(&start, 1.0);
         let last = ahead.last().cloned();
         let points: Vec<ToolPoint> = [start].into_iter().chain(ahead).collect();
@@ -341,7 +371,7 @@ impl ToolConditions<'_> {
     /// States where the load along a driven motion vanishes on the path in both directions from an equilibrium (without
     /// one, from the machine held where it is commanded), and the ends of that path.
     pub(crate) fn unloaded(&self, from: Option<&MechanismEquilibrium>) -> [Vec<MechanismState>; 2] {
-        let ahead = (self.pattern.0, 0.0);
+        let ahead = self.along_pattern();
         let start = match from {
             Some(e) => Ok(self.point(e.clone(), 0.0, &ahead)),
             None => self.first(0.0),

@@ -4,13 +4,11 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use crate::continuation::curve::{Branch, BranchEnd, SpecialKind, Stop, join};
-use crate::continuation::curve_equilibrium::CurveEquilibrium;
+use crate::continuation::curve::{Branch, BranchEnd, CurveEquilibrium, SpecialKind, Stop, join};
 use crate::continuation::linear::family::Family;
 use crate::continuation::tracing::describe::{describe, tangent};
-use crate::continuation::tracing::state_distance::{off_segment, wrapped};
 use crate::continuation::tracing::system::{
-    BranchOf, CurveSystem, HalfBranch, Point, Row, SpecialPoint,
+    BranchOf, CurveSystem, HalfBranch, Point, Row, SpecialPoint, off_segment, wrapped,
 };
 use crate::continuation::tracing::tracer::Tracer;
 use crate::error::Result;

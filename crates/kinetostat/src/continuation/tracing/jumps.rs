@@ -1,10 +1,10 @@
 //! Equilibria on the branches of a curve at one load or one displacement, and where a system jumps from its limit points.
 
-use crate::continuation::curve::{Jump, SpecialKind};
-use crate::continuation::curve_equilibrium::CurveStability;
+use crate::continuation::curve::{CurveStability, Jump, SpecialKind};
 use crate::continuation::tracing::describe::{describe, tangent};
-use crate::continuation::tracing::state_distance::{distance, wrapped};
-use crate::continuation::tracing::system::{BranchOf, CurveSystem, Point, Row, SpecialPoint};
+use crate::continuation::tracing::system::{
+    BranchOf, CurveSystem, Point, Row, SpecialPoint, distance, wrapped,
+};
 
 /// Equilibria at one value of the parameter, or (`false`) of its conjugate, on all branches.
 pub(crate) fn points_at<S: CurveSystem>(

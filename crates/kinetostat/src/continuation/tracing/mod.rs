@@ -6,11 +6,8 @@
 pub(crate) mod bifurcation;
 pub(crate) mod branch_switching;
 pub(crate) mod describe;
-pub(crate) mod family_of;
 pub(crate) mod jumps;
 pub(crate) mod segment;
-pub(crate) mod singular_point;
 pub(crate) mod special_points;
-pub(crate) mod state_distance;
 pub(crate) mod system;
 pub(crate) mod tracer;

@@ -9,6 +9,19 @@ pub(crate) struct Segment<'s, S: CurveSystem> {
     pub there: &'s Point<S>,
 }
 
+/// Value of a function of the state at a share of the step.
+#[derive(Clone, Copy)]
+pub(crate) struct Sample {
+    pub share: f64,
+    pub value: f64,
+}
+
+impl Sample {
+    pub fn new(share: f64, value: f64) -> Self {
+        Self { share, value }
+    }
+}
+
 impl<S: CurveSystem> Segment<'_, S> {
     pub fn at(&self, system: &mut S, share: f64) -> Option<(Corrected, Tangent)> {
         system.start_from(&self.here.equilibrium);
@@ -26,19 +39,20 @@ impl<S: CurveSystem> Segment<'_, S> {
     pub fn root(
         &self,
         system: &mut S,
-        mut low: (f64, f64),
-        mut high: (f64, f64),
+        mut low: Sample,
+        mut high: Sample,
         width: f64,
         f: &dyn Fn(&mut S, &Corrected, &Tangent) -> f64,
     ) -> f64 {
         let mut side = 0;
         for _ in 0..60 {
-            if (high.0 - low.0).abs() < width || low.1 == 0.0 || high.1 == 0.0 {
+            if (high.share - low.share).abs() < width || low.value == 0.0 || high.value == 0.0 {
                 break;
             }
-            let mut share = high.0 - high.1 * (high.0 - low.0) / (high.1 - low.1);
-            if !(share > low.0 && share < high.0) {
-                share = 0.5 * (low.0 + high.0);
+            let mut share =
+                high.share - high.value * (high.share - low.share) / (high.value - low.value);
+            if !(share > low.share && share < high.share) {
+                share = 0.5 * (low.share + high.share);
             }
             let value = match self.at(system, share) {
                 Some((c, t)) => f(system, &c, &t),
@@ -50,24 +64,24 @@ impl<S: CurveSystem> Segment<'_, S> {
             if value == 0.0 {
                 return share;
             }
-            if (value > 0.0) == (high.1 > 0.0) {
-                high = (share, value);
+            if (value > 0.0) == (high.value > 0.0) {
+                high = Sample { share, value };
                 if side == 1 {
-                    low.1 *= 0.5;
+                    low.value *= 0.5;
                 }
                 side = 1;
             } else {
-                low = (share, value);
+                low = Sample { share, value };
                 if side == -1 {
-                    high.1 *= 0.5;
+                    high.value *= 0.5;
                 }
                 side = -1;
             }
         }
-        if low.1.abs() < high.1.abs() {
-            low.0
+        if low.value.abs() < high.value.abs() {
+            low.share
         } else {
-            high.0
+            high.share
         }
     }
 }
@@ -79,33 +93,33 @@ pub(crate) fn dip<S: CurveSystem>(
     a: f64,
     b: f64,
     f: &dyn Fn(&mut S, f64) -> Option<f64>,
-) -> Option<(f64, f64)> {
-    let (mut low, mut high) = ((0.0, a), (1.0, b));
-    let mut middle = (0.5, f(system, 0.5)?);
+) -> Option<Sample> {
+    let (mut low, mut high) = (Sample::new(0.0, a), Sample::new(1.0, b));
+    let mut middle = Sample::new(0.5, f(system, 0.5)?);
     for _ in 0..8 {
-        if middle.1 * a < 0.0 {
+        if middle.value * a < 0.0 {
             return Some(middle);
         }
         let (d1, d2) = (
-            (middle.1 - low.1) / (middle.0 - low.0),
-            (high.1 - middle.1) / (high.0 - middle.0),
+            (middle.value - low.value) / (middle.share - low.share),
+            (high.value - middle.value) / (high.share - middle.share),
         );
-        let bend = (d2 - d1) / (high.0 - low.0);
+        let bend = (d2 - d1) / (high.share - low.share);
         // Nearest to zero must be inside, and the parabola must come near it.
         if bend * a <= 0.0 || d1 * a >= 0.0 || d2 * a <= 0.0 {
             return None;
         }
-        let vertex = 0.5 * (low.0 + middle.0) - 0.5 * d1 / bend;
-        if !(vertex > low.0 && vertex < high.0) || (vertex - middle.0).abs() < 1e-4 {
+        let vertex = 0.5 * (low.share + middle.share) - 0.5 * d1 / bend;
+        if !(vertex > low.share && vertex < high.share) || (vertex - middle.share).abs() < 1e-4 {
             return None;
         }
-        let next = (vertex, f(system, vertex)?);
-        let (left, right) = if next.0 < middle.0 {
+        let next = Sample::new(vertex, f(system, vertex)?);
+        let (left, right) = if next.share < middle.share {
             (next, middle)
         } else {
             (middle, next)
         };
-        if left.1 * a < right.1 * a {
+        if left.value * a < right.value * a {
             (middle, high) = (left, right);
         } else {
             (low, middle) = (left, right);

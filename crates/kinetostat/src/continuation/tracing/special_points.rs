@@ -11,12 +11,11 @@
 
 use nalgebra::DVector;
 
-use crate::continuation::curve::{Special, SpecialKind};
-use crate::continuation::curve_equilibrium::CurveStability;
+use crate::continuation::curve::{CurveStability, Special, SpecialKind};
 use crate::continuation::linear::tangent::Tangent;
 use crate::continuation::tracing::bifurcation::{bifurcation, stability_change};
 use crate::continuation::tracing::describe::describe;
-use crate::continuation::tracing::segment::{Segment, dip, largest_one};
+use crate::continuation::tracing::segment::{Sample, Segment, dip, largest_one};
 use crate::continuation::tracing::system::{Corrected, CurveSystem, Point, SpecialPoint};
 
 /// A rate below this is zero: rates are those of unit tangents in comparable units.
@@ -102,25 +101,25 @@ fn limits<S: CurveSystem>(system: &mut S, segment: &Segment<'_, S>) -> Vec<(bool
         let here = |system: &mut S, c: &Corrected, t: &Tangent| {
             rate(system, conjugate, &c.matrix.gradient(), &t.direction)
         };
-        let root = |system: &mut S, low: (f64, f64), high: (f64, f64)| {
+        let [first, last] = [Sample::new(0.0, a), Sample::new(1.0, b)];
+        let root = |system: &mut S, low: Sample, high: Sample| {
             segment.root(system, low, high, 1e-13, &here)
         };
         if b.abs() < NO_RATE {
             shares.push((conjugate, 1.0));
         } else if a * b < 0.0 {
-            shares.push((conjugate, root(system, (0.0, a), (1.0, b))));
+            shares.push((conjugate, root(system, first, last)));
         } else if a.abs().min(b.abs()) < 0.5 {
             // Two limit points within one step: the rate dips through zero and comes back.
             let f = |system: &mut S, share: f64| {
                 let (c, t) = segment.at(system, share)?;
                 Some(here(system, &c, &t))
             };
-            if let Some((share, value)) = dip(system, a, b, &f)
-                && value * a < 0.0
+            if let Some(middle) = dip(system, a, b, &f)
+                && middle.value * a < 0.0
             {
-                let middle = (share, value);
-                shares.push((conjugate, root(system, (0.0, a), middle)));
-                shares.push((conjugate, root(system, middle, (1.0, b))));
+                shares.push((conjugate, root(system, first, middle)));
+                shares.push((conjugate, root(system, middle, last)));
             }
         }
     }

@@ -14,11 +14,10 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use crate::chain::residual::ResidualNorms;
-use crate::continuation::curve::{Branch, BranchEnd, CurvePoint, Special};
-use crate::continuation::curve_equilibrium::CurveEquilibrium;
+use crate::continuation::curve::{Branch, BranchEnd, CurveEquilibrium, CurvePoint, Special};
 use crate::continuation::linear::curve_matrix::CurveMatrix;
 use crate::continuation::linear::family::Family;
-use crate::continuation::linear::null_directions::NullDirections;
+use crate::continuation::linear::tangent::NullDirections;
 use crate::continuation::settings::CurveSettings;
 use crate::error::Error;
 
@@ -167,4 +166,33 @@ pub(crate) trait CurveSystem {
     fn equilibrium(&mut self, c: &Corrected) -> Self::Equilibrium;
     /// Error if no equilibrium was found near a state.
     fn not_converged(&mut self, z: &DVector<f64>, iterations: usize) -> Error;
+}
+
+/// `a - b`, full turns taken out.
+pub(crate) fn wrapped(a: &DVector<f64>, b: &DVector<f64>, turns: &[f64]) -> DVector<f64> {
+    let mut d = a - b;
+    for (d, turn) in d.iter_mut().zip(turns) {
+        if *turn > 0.0 {
+            *d -= turn * (*d / turn).round();
+        }
+    }
+    d
+}
+
+/// Distance of two states, full turns taken out.
+pub(crate) fn distance<S: CurveSystem>(system: &S, a: &DVector<f64>, b: &DVector<f64>) -> f64 {
+    wrapped(a, b, &system.full_turns()).norm()
+}
+
+/// Distance of `p` from the segment `a b`, full turns taken out.
+pub(crate) fn off_segment(
+    p: &DVector<f64>,
+    a: &DVector<f64>,
+    b: &DVector<f64>,
+    turns: &[f64],
+) -> f64 {
+    let along = b - a;
+    let from = wrapped(p, a, turns);
+    let share = (from.dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (from - along * share).norm()
 }

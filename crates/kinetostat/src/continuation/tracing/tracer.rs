@@ -9,13 +9,11 @@ use crate::continuation::curve::{BranchEnd, Stop};
 use crate::continuation::linear::family::Family;
 use crate::continuation::linear::tangent::Tangent;
 use crate::continuation::settings::CurveSettings;
-use crate::continuation::tracing::describe::{describe, tangent};
-use crate::continuation::tracing::family_of::family_of;
-use crate::continuation::tracing::singular_point::start_direction;
+use crate::continuation::tracing::bifurcation::start_direction;
+use crate::continuation::tracing::describe::{describe, family_of, tangent};
 use crate::continuation::tracing::special_points;
-use crate::continuation::tracing::state_distance::distance;
 use crate::continuation::tracing::system::{
-    Corrected, CurveSystem, HalfBranch, Point, Row, SpecialPoint,
+    Corrected, CurveSystem, HalfBranch, Point, Row, SpecialPoint, distance,
 };
 use crate::error::Result;
 

@@ -15,8 +15,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix6, Vector6};
 
 use crate::error::{Error, Result};
 use crate::linalg::block_elimination::{BlockFactors, FEW, Pivots};
-use crate::linalg::largest::largest;
-use crate::linalg::sparse::Sparse;
+use crate::linalg::sparse::{Sparse, largest};
 use crate::machine::inverse::limb::{LimbPosture, inverse_kinematics};
 use crate::model::chain::Role;
 use crate::model::kinematics::Kinematics;

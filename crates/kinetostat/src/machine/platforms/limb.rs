@@ -6,9 +6,9 @@
 
 use nalgebra::{DMatrix, Vector6};
 
+use crate::chain::directions::scaled_jacobian;
 use crate::chain::equilibrium::System;
-use crate::chain::passive::scaled_jacobian;
-use crate::chain::sweep::end_spring::{END_SPRINGS, STEP_SPRINGS};
+use crate::chain::sweep::factor::{END_SPRINGS, STEP_SPRINGS};
 use crate::chain::sweep::solve::{Bordered, EndRows, unit_motions_of};
 use crate::chain::sweep::stages::Sweep;
 use crate::chain::system::Hessian;

@@ -13,6 +13,5 @@ pub(crate) mod chain;
 pub(crate) mod limb;
 pub(crate) mod newton;
 pub(crate) mod parts;
-pub(crate) mod platform_loads;
 pub(crate) mod solver;
 pub(crate) mod step;

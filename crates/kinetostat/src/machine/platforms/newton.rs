@@ -1,8 +1,8 @@
 //! Newton's iteration for the platforms of a mechanism under step control, directly or with loads that grow.
 
-use nalgebra::{DVector, Vector6};
+use nalgebra::{DVector, Matrix6, Vector6};
 
-use crate::chain::found_by::FoundBy;
+use crate::chain::residual::FoundBy;
 use crate::chain::scaling::{aside, step_limit};
 use crate::chain::system::Hessian;
 use crate::error::{Error, Result};
@@ -11,7 +11,7 @@ use crate::machine::platforms::parts::{PlatformStep, Tangents, Unknowns};
 use crate::machine::platforms::solver::{MechanismResiduals, PlatformSolver};
 use crate::machine::state::MechanismState;
 use crate::model::loads::load::lagged_steps;
-use crate::spatial::{MotionKind, Pose, Twist, Wrench, moved};
+use crate::spatial::{MotionKind, Pose, Twist, Wrench, hat, moved, rotational};
 
 /// A step that was gone by some share of its length.
 struct Trial {
@@ -363,3 +363,38 @@ pub(crate) struct Iterate {
 /// Corrections of less motion than this (rad, natural lengths) are assessed by the residual after them,
 /// larger ones by the motion that the same tangents still want.
 const SMALL: f64 = 1e-2;
+
+impl PlatformSolver<'_> {
+    /// Contribution of a limb's force to the stiffness of the platform at its tip as the arm turns.
+    pub fn turned_force(&self, limb: usize, at: &MechanismState) -> Matrix6<f64> {
+        let f = at.wrenches[limb].force();
+        rotational(&(hat(&f) * hat(&self.arm(limb, at))))
+    }
+
+    /// Adds the tangents of what acts on the platforms themselves, `-dW / d(motion)`.
+    pub fn add_platform_loads(
+        &self,
+        at: &MechanismState,
+        mut add: impl FnMut(usize, usize, &Matrix6<f64>),
+    ) {
+        let m = self.mechanism;
+        // A weight keeps its direction while its lever arm turns.
+        for (k, platform) in m.platforms().iter().enumerate().skip(1) {
+            let weight = m.gravity() * (platform.mass * self.share);
+            let arm = at.platforms[k].rotation * platform.centre_of_mass;
+            let block = -rotational(&(hat(&weight) * hat(&arm)));
+            add(k, k, &block);
+        }
+        let mut own = Vec::new();
+        for load in m.platform_loads() {
+            load.tangents(&at.platforms, &mut own);
+        }
+        for tangent in own {
+            let block = tangent.matrix * -self.share;
+            // The base does not move, nor does it matter what acts on it.
+            if tangent.on > 0 && tangent.by > 0 {
+                add(tangent.on, tangent.by, &block);
+            }
+        }
+    }
+}

@@ -14,16 +14,14 @@
 
 use nalgebra::{DMatrix, Vector3, Vector6};
 
+use crate::chain::directions::scaled_jacobian;
 use crate::chain::equilibrium::{System, rounding, scales_of};
-use crate::chain::found_by::FoundBy;
-use crate::chain::passive::scaled_jacobian;
-use crate::chain::residual::ResidualNorms;
+use crate::chain::residual::{FoundBy, ResidualNorms};
 use crate::chain::scaling::LEAST_LOAD;
 use crate::chain::stability::{ShapeStability, shape_stability};
 use crate::chain::stiffness::{ChainStiffness, chain_stiffness, motions_of_end};
 use crate::chain::system::Hessian;
-use crate::linalg::largest::largest;
-use crate::linalg::sparse::Sparse;
+use crate::linalg::sparse::{Sparse, largest};
 use crate::machine::inverse::graph::{GraphPosture, graph_inverse, graph_rates};
 use crate::machine::inverse::limb::{LimbPosture, command_rates, inverse_kinematics};
 use crate::machine::platforms::limb::Linear;

@@ -7,11 +7,11 @@
 
 use nalgebra::{DMatrix, DVector, Vector6};
 
-use crate::linalg::largest::largest;
 use crate::linalg::singular_values::{SingularValues, shortest_and_free};
+use crate::linalg::sparse::largest;
 use crate::machine::constraints::limb_motions;
-use crate::machine::ends::ends;
 use crate::machine::inverse::limb::LimbPosture;
+use crate::machine::network::ends;
 use crate::machine::posture::Posture;
 use crate::model::chain::{Chain, Role};
 use crate::number::larger;

@@ -9,8 +9,8 @@ use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::chain::directions::motion_description;
 use crate::error::Result;
-use crate::linalg::largest::largest;
 use crate::linalg::singular_values::SingularValues;
+use crate::linalg::sparse::largest;
 use crate::machine::constraints::Constraints;
 use crate::machine::posture::Posture;
 use crate::machine::singular::lost_motion::{LostMotionSearch, solve};

@@ -15,7 +15,11 @@ use crate::spatial::{Pose, Wrench, hat, rotational};
 /// # use kinetostat::nalgebra::{Vector3, vector};
 /// # use kinetostat::*;
 /// let law = LengthLaw::Linear { stiffness: 3e3, free_length: 0.5, preload: 0.0 }; // N/m, m, N
-/// let spring = PlatformLoad::strut((1, vector![0.1, 0.0, 0.0]), (2, vector![0.0, -0.2, 0.05]), law);
+/// let spring = PlatformLoad::strut(
+///     Anchor::on_platform(1, vector![0.1, 0.0, 0.0]),
+///     Anchor::on_platform(2, vector![0.0, -0.2, 0.05]),
+///     law,
+/// );
 /// assert_eq!(spring.platforms(), [1, 2]);
 /// let turned = nalgebra::Isometry3::new(vector![0.3, 0.5, -0.2], vector![0.4, -0.3, 0.2]);
 /// let poses = [Pose::identity(), Pose::translation(0.1, 0.2, 0.3), turned];
@@ -67,19 +71,10 @@ impl PartialEq for PlatformLoad {
 }
 
 impl PlatformLoad {
-    /// A strut between points (m, platform axes) of two platforms (indices; 0 is the base) by a law
-    /// of length.
+    /// A strut between points of two platforms ([`Anchor::on_platform`]) by a law of length.
     #[must_use]
-    pub fn strut(from: (usize, Vector3<f64>), to: (usize, Vector3<f64>), law: LengthLaw) -> Self {
-        let anchor = |(node, point): (usize, Vector3<f64>)| match node {
-            0 => Anchor::Base(point),
-            node => Anchor::Node { node, point },
-        };
-        Self::Strut(Strut {
-            from: anchor(from),
-            to: anchor(to),
-            law,
-        })
+    pub fn strut(from: Anchor, to: Anchor, law: LengthLaw) -> Self {
+        Self::Strut(Strut { from, to, law })
     }
 
     /// Platforms that it moves.

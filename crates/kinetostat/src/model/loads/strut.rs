@@ -55,6 +55,15 @@ impl Anchor {
         }
     }
 
+    /// A point (m, platform axes) of a platform of a mechanism, by its index; 0 is the base.
+    #[must_use]
+    pub fn on_platform(platform: usize, point: Vector3<f64>) -> Self {
+        match platform {
+            0 => Self::Base(point),
+            node => Self::Node { node, point },
+        }
+    }
+
     /// The node that carries it; `None` for the base.
     pub(crate) fn on(&self) -> Option<usize> {
         match self {

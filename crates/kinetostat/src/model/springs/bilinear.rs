@@ -1,4 +1,4 @@
-//! A spring with a knee: one stiffness up to a deflection, another beyond it.
+//! Laws of one coordinate. A spring with a knee has one stiffness up to a deflection, another beyond it.
 //!
 //! Wave gears and bearings under preload answer like this; their makers give two or three stiffnesses by range of
 //! torque. With `c(x)` the deflection `x` cut off at `-d` and `d`,
@@ -13,9 +13,8 @@
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-use crate::linalg::derivatives::Number;
+use crate::linalg::derivatives::{Forward, Number, Real};
 use crate::model::limits::LARGEST;
-use crate::model::springs::single::SingleLaw;
 
 /// A spring of one coordinate with two stiffnesses.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,5 +55,30 @@ impl SingleLaw for BilinearLaw {
     fn energy(&self, x: f64) -> f64 {
         let c = x.clamped(self.knee);
         0.5 * self.beyond * x * x + (self.stiffness - self.beyond) * (x - 0.5 * c) * c
+    }
+}
+
+/// A law that grows without end in both senses, zero at zero.
+pub trait SingleLaw {
+    /// Stiffness at rest, N/m or N m/rad.
+    fn at_rest(&self) -> f64;
+
+    /// Describes the fault of its numbers, the stiffness at rest excepted.
+    fn fault(&self) -> Option<&'static str>;
+
+    /// Torque (N, N m) at a deflection (m, rad).
+    fn torque<N: Number>(&self, x: N) -> N;
+
+    /// The deflection at which the law has this torque: a contracting iteration needs no tangent then.
+    fn deflection<N: Number>(&self, torque: N) -> N;
+
+    /// Energy, J.
+    fn energy(&self, x: f64) -> f64;
+
+    /// Tangent stiffness at a deflection.
+    #[inline(always)]
+    fn tangent<R: Real>(&self, x: R) -> R {
+        let [rate] = self.torque(Forward::variable(x, 0)).rate;
+        rate
     }
 }

@@ -27,13 +27,12 @@
 //! Everything below is written once, for every number ([`crate::linalg::derivatives`]): the general engine and the
 //! vectorised kernels evaluate the same formulas.
 
+use crate::linalg::derivatives::{Forward, Number, Real};
+use crate::model::springs::curved::{CurvedLaw, Six, times};
+use crate::model::springs::logarithm::{angles, rotation_vector, torque_on_turns};
 use nalgebra::{Matrix6, Vector6};
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
-
-use crate::linalg::derivatives::{Forward, Number, Real};
-use crate::model::springs::curved::{CurvedLaw, Six, times};
-use crate::model::springs::rotation::{angles, rotation_vector, torque_on_turns};
 
 /// Energy of a beam segment that shortens as it bends; see [`crate::model::LinkConvention::Bowing`].
 #[derive(Clone, Copy, Debug, PartialEq)]

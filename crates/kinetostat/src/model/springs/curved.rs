@@ -7,7 +7,6 @@
 use nalgebra::{Matrix6, Vector6};
 
 use crate::linalg::derivatives::{Forward, Number, Real, inner};
-use crate::model::springs::response::Response;
 
 /// A 6 x 6 matrix by rows.
 pub(crate) type Six<N> = [[N; 6]; 6];
@@ -169,4 +168,17 @@ fn inverse<N: Number>(mut m: Six<N>) -> Six<N> {
         }
     }
     x
+}
+
+/// Response of a six-dimensional law to a deflection.
+#[derive(Clone, Copy, Debug)]
+pub struct Response {
+    /// J.
+    pub energy: f64,
+    /// Gradient of the energy, N or N m.
+    pub torque: Vector6<f64>,
+    /// Second derivative that the strains' rates make: positive definite as the matrix of the law is.
+    pub material: Matrix6<f64>,
+    /// Second derivative that a curvature of the strains adds under load: the geometric stiffness.
+    pub geometric: Matrix6<f64>,
 }
