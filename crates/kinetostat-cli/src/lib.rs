@@ -61,7 +61,7 @@ use kinetostat_machining::Watch;
 
 use crate::command_line::{Cli, Command, no_number, plain_numbers};
 use crate::files::journal;
-use crate::ui::failure::{Answer, Code, Failure};
+use crate::ui::failure::{Answer, Code, Failing, Failure};
 use crate::ui::given::Given;
 use crate::ui::host::{self, Host};
 use crate::ui::{json, progress, screen};
@@ -149,7 +149,7 @@ fn answer(words: impl Iterator<Item = OsString>, begin: impl FnOnce()) -> u8 {
     let words = plain_numbers(words);
     let asks_for_json = words.iter().any(|word| word == "--json");
     if let Some(what) = no_number(&words) {
-        return refused(&Failure::new(ErrorCode::Value, what), asks_for_json);
+        return refused(&ErrorCode::Value.failure(what), asks_for_json);
     }
     let (cli, given) = match parsed(words) {
         Ok(parsed) => parsed,
@@ -164,7 +164,7 @@ fn answer(words: impl Iterator<Item = OsString>, begin: impl FnOnce()) -> u8 {
             }
             if asks_for_json {
                 let text = error.render().to_string();
-                let failure = Failure::new(ErrorCode::CommandLine, text.trim());
+                let failure = ErrorCode::CommandLine.failure(text.trim());
                 json::print_errors(&failure);
             }
             return Code::WrongInput as u8;

@@ -3,7 +3,7 @@
 use kinetostat_diagnostic::ErrorCode;
 use nalgebra::Vector3;
 
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 pub(crate) const EXIT_CODES: &str = "\
 Exit codes:
@@ -50,10 +50,9 @@ pub(crate) fn small(text: &str) -> Result<u8, NumberFault> {
 
 pub(crate) fn finite(name: &str, values: &[f64]) -> Answer<()> {
     match values.iter().find(|v| !v.is_finite()) {
-        Some(v) => Err(Failure::new(
-            ErrorCode::Value,
-            format!("{name} holds {v}: finite numbers are needed"),
-        )),
+        Some(v) => {
+            Err(ErrorCode::Value.failure(format!("{name} holds {v}: finite numbers are needed")))
+        }
         None => Ok(()),
     }
 }
@@ -63,9 +62,6 @@ pub(crate) fn vector(name: &str, values: &[f64]) -> Answer<Vector3<f64>> {
     finite(name, values)?;
     match values {
         [x, y, z] => Ok(Vector3::new(*x, *y, *z)),
-        _ => Err(Failure::new(
-            ErrorCode::Value,
-            format!("{name} needs three numbers"),
-        )),
+        _ => Err(ErrorCode::Value.failure(format!("{name} needs three numbers"))),
     }
 }

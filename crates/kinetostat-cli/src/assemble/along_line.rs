@@ -18,7 +18,7 @@ use crate::assemble::query::AssemblyQuery;
 use crate::options::vector;
 use crate::place::orientation;
 use crate::ui::csv_cell::digits;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::{fixed, short, triple};
 use crate::ui::warnings;
@@ -125,19 +125,17 @@ pub(crate) fn answer(
     let query = &assembly.query;
     let count = args.points.unwrap_or(41);
     if !(2..=MOST_POINTS).contains(&count) {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!("--points {count}: a line has 2 to {MOST_POINTS} points"),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "--points {count}: a line has 2 to {MOST_POINTS} points"
+        )));
     }
     let from = vector("--along", line.get(..3).unwrap_or_default())?;
     let to = vector("--along", line.get(3..).unwrap_or_default())?;
     let length = (to - from).norm();
     if length.max(from.norm()).max(to.norm()) > 1e7 {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            "--along leads more than 10 km away; coordinates are in mm",
-        ));
+        return Err(
+            ErrorCode::Value.failure("--along leads more than 10 km away; coordinates are in mm")
+        );
     }
     let mut points = Vec::with_capacity(count);
     let follows = query.mechanism.turns_as_it_moves();
@@ -256,12 +254,8 @@ pub(crate) fn plot(a: &AlongLine, component: Component) -> Plot {
 
 pub(crate) fn csv(a: &AlongLine) -> Answer<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let failed = |e: csv::Error| {
-        Failure::new(
-            ErrorCode::Output,
-            format!("the table cannot be written: {e}"),
-        )
-    };
+    let failed =
+        |e: csv::Error| ErrorCode::Output.failure(format!("the table cannot be written: {e}"));
     let mut header = vec!["distance_mm".to_owned()];
     for name in [
         "",

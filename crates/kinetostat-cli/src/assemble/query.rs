@@ -9,7 +9,7 @@ use kinetostat_model::schema::{Axis, AxisName, Deviation, Placement};
 use crate::assemble::arguments::AssembleArgs;
 use crate::files::input_files::InputFiles;
 use crate::place::query::{PlaceQuery, place_query_of};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 
 /// The query, and the machine without its deviations.
 pub(crate) struct AssemblyQuery {
@@ -48,10 +48,7 @@ pub(crate) fn assembly_query(args: &AssembleArgs) -> Answer<AssemblyQuery> {
 }
 
 fn refused(deviation: &str, reason: &str) -> Failure {
-    Failure::new(
-        ErrorCode::Value,
-        format!("--deviation '{deviation}': {reason}"),
-    )
+    ErrorCode::Value.failure(format!("--deviation '{deviation}': {reason}"))
 }
 
 /// `LIMB:AT:WHAT` as deviations of one limb, or of all.

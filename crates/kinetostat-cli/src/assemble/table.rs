@@ -3,7 +3,7 @@
 use kinetostat_analysis::assembled::Cases;
 
 use crate::assemble::answer::Assembly;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use kinetostat::number::largest_size;
 use kinetostat_diagnostic::ErrorCode;
 
@@ -104,12 +104,8 @@ pub(crate) fn rows(a: &Assembly) -> Vec<Row> {
 /// Table of all numbers, full precision.
 pub(crate) fn csv(a: &Assembly) -> Answer<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let failed = |e: csv::Error| {
-        Failure::new(
-            ErrorCode::Output,
-            format!("the table cannot be written: {e}"),
-        )
-    };
+    let failed =
+        |e: csv::Error| ErrorCode::Output.failure(format!("the table cannot be written: {e}"));
     writer
         .write_record([
             "what",

@@ -28,7 +28,7 @@ use crate::program::aim::Aim;
 use crate::program::chatter::{Judging, refused};
 use crate::program::flat_lines::of_warnings;
 use crate::program::solve::{forces_of, with_task};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::progress::{AsOne, Progress};
 use crate::ui::result_form::ResultForm;
 use crate::ui::threads::in_threads;
@@ -72,10 +72,7 @@ pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
     let as_one = AsOne::new(&progress, "chatter, %", &SHARES);
     let forces = forces_of(&machine, &setting, read.path(), &as_one)?;
     let Some(forces) = &forces else {
-        return Err(Failure::new(
-            ErrorCode::Missing,
-            "the job has no forces of the cut",
-        ));
+        return Err(ErrorCode::Missing.failure("the job has no forces of the cut"));
     };
     let found = with_task(
         Aim::Analyse,

@@ -37,7 +37,7 @@ use crate::program::aim::Aim;
 use crate::program::chatter::Judging;
 use crate::program::flat_lines::{WithSources, listed_under, of_warnings};
 use crate::program::solve::{computed, forces_of, with_task};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::layout::{item, listed, wrapped};
 use crate::ui::numbers::{short, triple};
 use crate::ui::{json, warnings};
@@ -125,13 +125,10 @@ pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
     }
     match found.ends.iter().filter(|e| !e.reached).count() {
         0 => Ok(()),
-        n => Err(Failure::new(
-            ErrorCode::NoAnswer,
-            format!(
-                "the machine does not reach {n} of the {} ends of the program; see above",
-                found.ends.len()
-            ),
-        )),
+        n => Err(ErrorCode::NoAnswer.failure(format!(
+            "the machine does not reach {n} of the {} ends of the program; see above",
+            found.ends.len()
+        ))),
     }
 }
 

@@ -17,7 +17,7 @@ use crate::check::model::text::answer_text;
 use crate::files::file_kind::FileKind;
 use crate::files::input_files::InputFiles;
 use crate::options::{EXIT_CODES, number, vector};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::json;
 use crate::ui::result_form::ResultForm;
 
@@ -32,8 +32,7 @@ pub(crate) fn run(args: &CheckArgs) -> Answer<()> {
     let file = Path::new(&args.model);
     if FileKind::of_file(file) == Some(FileKind::Job) {
         if args.pose.is_some() || args.force.is_some() {
-            return Err(Failure::new(
-                ErrorCode::Unused,
+            return Err(ErrorCode::Unused.failure(
                 "--pose and --force check a model, and this is a job file: name its model instead",
             ));
         }

@@ -8,7 +8,7 @@ use kinetostat_report::{Cell, Plot, PlotLine, Section};
 use crate::compare::answer::{Compared, Summary};
 use crate::compare::arguments::CompareArgs;
 use crate::ui::csv_table::{cell, cell_if_any, written};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::numbers::short;
 use crate::ui::progress::Progress;
 
@@ -35,22 +35,17 @@ pub(crate) fn grid(args: &CompareArgs, home_mm: [f64; 3]) -> Answer<Option<Grid>
         let (from, to, count) = (values[0], values[1], values[2]);
         all *= count;
         if count.fract() != 0.0 || count < 2.0 || from == to || all > MOST_PLACES {
-            return Err(Failure::new(
-                ErrorCode::Value,
-                format!(
+            return Err(ErrorCode::Value.failure(format!(
                     "--{} {from} {to} {count}: write from, to (mm) and a whole number of places, 2 or more and {MOST_PLACES} in all at most",
                     AXES[k]
                 ),
             ));
         }
         if from.abs().max(to.abs()) > 1e7 {
-            return Err(Failure::new(
-                ErrorCode::Value,
-                format!(
-                    "--{} leads more than 10 km away; coordinates are in mm",
-                    AXES[k]
-                ),
-            ));
+            return Err(ErrorCode::Value.failure(format!(
+                "--{} leads more than 10 km away; coordinates are in mm",
+                AXES[k]
+            )));
         }
         (grid.from_mm[k], grid.to_mm[k], grid.counts[k]) = (from, to, count as usize);
     }
@@ -108,14 +103,11 @@ pub(crate) fn difference(a: &Mechanism, b: &Mechanism, grid: Grid) -> Answer<Dif
     let least = ratios.iter().min_by(|x, y| x.0.total_cmp(&y.0));
     let most = ratios.iter().max_by(|x, y| x.0.total_cmp(&y.0));
     let (Some(least), Some(most)) = (least, most) else {
-        return Err(Failure::new(
-            ErrorCode::NoAnswer,
-            format!(
-                "no place of the grid is reached by both, {} and {}",
-                a.name(),
-                b.name()
-            ),
-        ));
+        return Err(ErrorCode::NoAnswer.failure(format!(
+            "no place of the grid is reached by both, {} and {}",
+            a.name(),
+            b.name()
+        )));
     };
     let count = ratios.len() as f64;
     let only = |x: &MapPlace, y: &MapPlace| stiffness(x).is_some() && stiffness(y).is_none();

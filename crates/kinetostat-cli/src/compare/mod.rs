@@ -21,7 +21,7 @@ use crate::files::answer_files::{ClaimedFiles, Shown};
 use crate::files::input_files::InputFiles;
 use crate::machine::model_warnings::of_model;
 use crate::options::vector;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::{fixed, number, short, triple};
 use crate::ui::result_form::ResultForm;
@@ -66,9 +66,8 @@ impl Design {
 
     /// Stiffness and shares at a place.
     fn figures(&self, at: Option<Vector3<f64>>) -> Answer<Figures> {
-        let failed = |e: &kinetostat::Error| {
-            Failure::new(ErrorCode::NoAnswer, format!("{}: {e}", self.named))
-        };
+        let failed =
+            |e: &kinetostat::Error| ErrorCode::NoAnswer.failure(format!("{}: {e}", self.named));
         let posture = self.posture(at).map_err(|e| failed(&e))?;
         let stiffness = posture.stiffness().map_err(|e| failed(&e))?;
         let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
@@ -106,10 +105,9 @@ pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<Compared>("two mach
 pub(crate) fn run(args: &CompareArgs) -> Answer<()> {
     let length = args.tool_length_mm.unwrap_or(0.0);
     if length.abs() > 1e5 {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!("--tool-length-mm is {length}; tools are shorter than 100 m"),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "--tool-length-mm is {length}; tools are shorter than 100 m"
+        )));
     }
     let (a, b) = (
         Design::read(&args.a, length)?,
@@ -117,9 +115,7 @@ pub(crate) fn run(args: &CompareArgs) -> Answer<()> {
     );
     let grid = grid::grid(args, (a.home().translation.vector * 1e3).into())?;
     if grid.is_none() && (args.outputs.csv.is_some() || args.outputs.plot.is_some()) {
-        return Err(Failure::new(
-            ErrorCode::Missing,
-            "--csv and --plot show the difference over a grid; give at least one of --x, --y and --z",
+        return Err(ErrorCode::Missing.failure("--csv and --plot show the difference over a grid; give at least one of --x, --y and --z",
         ));
     }
     let inputs: Vec<PathBuf> = a.path.iter().chain(&b.path).cloned().collect();

@@ -14,7 +14,7 @@ use crate::job::machine::machine_setup;
 use crate::job::program::read_program;
 use crate::job::robot::source::RobotSource;
 use crate::job::setting::Setting;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::layout::wrapped;
 use crate::ui::screen::{self, Stream};
 
@@ -64,7 +64,7 @@ pub(crate) fn copy(setting: &Setting, existing: Existing) -> Answer<()> {
 
 /// Describes the program, and the fault that prevents a compensation.
 fn of_gcode(setting: &Setting) -> Answer<(String, Option<String>)> {
-    let refuse = |error| setting.within(Failure::new(ErrorCode::ProgramUnsuited, error));
+    let refuse = |error| setting.within(ErrorCode::ProgramUnsuited.failure(error));
     let program = Program::read(setting.program.clone()).map_err(refuse)?;
     let holds = format!(
         "{} in {}",
@@ -78,9 +78,7 @@ fn of_gcode(setting: &Setting) -> Answer<(String, Option<String>)> {
 /// Describes a program of SINUMERIK or Heidenhain, and its fault.
 fn of_control(setting: &Setting, source: &RobotSource) -> Answer<(String, Option<String>)> {
     if !source.language.is_in_blocks() {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            "--no-compensation writes a program of a machine as it was read, or with --expand its flat form; a program of a robot would be its own copy: leave it where it is",
+        return Err(ErrorCode::Unused.failure("--no-compensation writes a program of a machine as it was read, or with --expand its flat form; a program of a robot would be its own copy: leave it where it is",
         ));
     }
     let lines = setting

@@ -25,7 +25,7 @@ use crate::job::setting::Setting;
 use crate::program::flat_lines::{WithSources, listed_under, of_warnings};
 use crate::program::report;
 use crate::program::solve::too_many_blocks;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::progress::Progress;
 use crate::ui::{fault_list, json, warnings};
@@ -72,9 +72,7 @@ pub(crate) fn from_map(
 ) -> Answer<()> {
     let t = &setting.targets;
     if t.report.is_some() || t.pdf.is_some() || t.points.is_some() {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            "--map writes no --report, no --pdf and no --points: a table of corrections says nothing about loads and stiffness; leave these options out",
+        return Err(ErrorCode::Unused.failure("--map writes no --report, no --pdf and no --points: a table of corrections says nothing about loads and stiffness; leave these options out",
         ));
     }
     let field = read_table(files, map)?;

@@ -39,7 +39,7 @@ use crate::program::aim::Aim;
 use crate::program::features::refuse_missed_features;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::given::Given;
 use crate::ui::result_form::ResultForm;
 
@@ -202,9 +202,7 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     let to_screen = args.run.json.as_deref() == Some(Path::new("-"));
     if let Some(map) = &args.map {
         if names_model {
-            return Err(Failure::new(
-                ErrorCode::Conflict,
-                "--map corrects from a table, and the job names a model, whose corrections would be left out: leave --map out, or give the table a job without model, placement and load (or --program alone)",
+            return Err(ErrorCode::Conflict.failure("--map corrects from a table, and the job names a model, whose corrections would be left out: leave --map out, or give the table a job without model, placement and load (or --program alone)",
             ));
         }
         // A table of corrections knows no tools: a second one is warned of.
@@ -291,11 +289,9 @@ fn target(job: Option<&JobFile>, args: &CompensateArgs) -> Option<RobotWord> {
 fn refuse_turn_without_words(setting: &Setting) -> Answer<()> {
     match setting.free_turn {
         FreeTurnWord::AsStated => Ok(()),
-        _ if states_turn(setting) => Err(setting.within(Failure::new(ErrorCode::ProgramUnsuited,
-            "the program states how the tool is turned about its own axis, and a corrected one keeps that: write it as a new program, with --to krl, rapid or ls (to = \"krl\" under [robot]); `kinetostat deflect --free-turn` shows what the turn is worth",
+        _ if states_turn(setting) => Err(setting.within(ErrorCode::ProgramUnsuited.failure("the program states how the tool is turned about its own axis, and a corrected one keeps that: write it as a new program, with --to krl, rapid or ls (to = \"krl\" under [robot]); `kinetostat deflect --free-turn` shows what the turn is worth",
         ))),
-        FreeTurnWord::Choose | FreeTurnWord::Stiff => Err(setting.within(Failure::new(ErrorCode::ProgramUnsuited,
-            "this language has no words for the turn of a tool about its own axis, so that what is chosen could not be written: write the program for the robot, with --to krl, rapid or ls (to = \"krl\" under [robot]); `kinetostat deflect --free-turn` shows what the turn is worth",
+        FreeTurnWord::Choose | FreeTurnWord::Stiff => Err(setting.within(ErrorCode::ProgramUnsuited.failure("this language has no words for the turn of a tool about its own axis, so that what is chosen could not be written: write the program for the robot, with --to krl, rapid or ls (to = \"krl\" under [robot]); `kinetostat deflect --free-turn` shows what the turn is worth",
         ))),
     }
 }

@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Vector3};
 
 use crate::job::job_file::JobFile;
 use crate::job::machine::MachineSetup;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::short;
 
 /// Direction from the tip to the holder, axes of the tool: its z lies along the spindle, and up in the part is the holder.
@@ -66,9 +66,7 @@ pub(crate) fn refuse_leaning_tool(template: &Template) -> Answer<()> {
     let leans = (turn * up(template)).angle(&Vector3::z());
     match leans.to_degrees() < 0.1 {
         true => Ok(()),
-        false => Err(Failure::new(
-            ErrorCode::ProgramUnsuited,
-            format!(
+        false => Err(ErrorCode::ProgramUnsuited.failure(format!(
                 "the tool leans by {} deg from z of the part, and forces that are computed from the cut or measured are those of a tool along z: correct tool_orientation, or state the force under [load]",
                 short(leans.to_degrees())
             ),

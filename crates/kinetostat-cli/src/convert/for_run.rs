@@ -32,7 +32,7 @@ use crate::job::target_word::RobotWord;
 use crate::job::template_file::{TemplateAsked, TemplateFile};
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::program::solve::forces_of;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::short;
 
 /// Upper limit of the points of an undivided program: numbers of positions in a TP program have 16 bits.
@@ -57,17 +57,13 @@ fn for_run(
 ) -> Answer<Converted> {
     let (of_robot, language) = (word.of_robot(), word.language());
     if machine.placement.scale != 1.0 {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            "the scale of the program is not 1: a robot's program is in the robot's own millimetres; leave the scale out (--scale, scale under [placement])",
+        return Err(ErrorCode::Unused.failure("the scale of the program is not 1: a robot's program is in the robot's own millimetres; leave the scale out (--scale, scale under [placement])",
         ));
     }
     let read = read_program(&setting)?;
     let states_orientation = (read.path().moves.iter()).any(|motion| motion.tool_turn.is_some());
     if states_orientation && job.is_some_and(|j| !j.job.tools.is_empty()) {
-        return Err(Failure::new(
-            ErrorCode::Conflict,
-            "the program says itself which tools it takes and where their tips are: leave out [[tools]] in the job file (a load for all of them stands under [load])",
+        return Err(ErrorCode::Conflict.failure("the program says itself which tools it takes and where their tips are: leave out [[tools]] in the job file (a load for all of them stands under [load])",
         ));
     }
     let lies = refuse_implausible(&setting, &template, &read)?;
@@ -262,9 +258,7 @@ fn whole(
     let files = made.files.iter();
     let files = files.map(|(name, bytes)| SourceFile::new(name.as_str(), bytes.as_slice()));
     let Some(divided) = Divided::of(of_robot, files.collect()) else {
-        return Err(Failure::new(
-            ErrorCode::ProgramUnsuited,
-            format!(
+        return Err(ErrorCode::ProgramUnsuited.failure(format!(
                 "the program needs {} files in {}, and a run compensates one, with at most {MOST_POINTS_OF_LS} places: leave most_points out of the template where it is smaller, or divide the program and run each part by itself",
                 made.files.len(),
                 language.title()
@@ -293,9 +287,7 @@ fn on_motions(
     });
     let parts = parts.filter(|parts| parts.len() == read.path().moves.len());
     let Some(parts) = parts else {
-        return Err(Failure::new(
-            ErrorCode::Internal,
-            "the forces of the cut do not go with the motions of the made program; nothing was written, please report this",
+        return Err(ErrorCode::Internal.failure("the forces of the cut do not go with the motions of the made program; nothing was written, please report this",
         ));
     };
     Ok(forces.on_parts(&parts))
@@ -321,7 +313,7 @@ pub(crate) fn refuse_fast_feeds(
         (speed >= 0.999 * rapid).then_some((motion.line, speed))
     });
     match fast.next() {
-        Some((line, speed)) => Err(setting.within(Failure::new(ErrorCode::Value, format!(
+        Some((line, speed)) => Err(setting.within(ErrorCode::Value.failure(format!(
             "line {line}: the feed, {} mm/s, is not below the speed of rapids, {} mm/s, by which a program of a robot tells cuts from rapids: write a larger rapid_speed_mm_per_s in the template",
             short(speed),
             short(rapid)

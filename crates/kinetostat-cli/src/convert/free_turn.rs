@@ -11,7 +11,7 @@ use crate::job::free_turn::{FreeTurn, chosen, only_tool};
 use crate::job::program::ReadProgram;
 use crate::job::robot::frames::in_metres;
 use crate::job::setting::Setting;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Chooses the turn along a path of positions for the arm of a model, with tool and part where the template has them.
 pub(crate) fn free_turn(
@@ -39,9 +39,7 @@ pub(crate) fn free_turn(
         )?,
     };
     let Some(orientation) = template.tool_orientation else {
-        return Err(Failure::new(
-            ErrorCode::Missing,
-            "--free-turn turns the tool about its axis from an orientation that is stated: tool_orientation in the template, or --tool-orientation",
+        return Err(ErrorCode::Missing.failure("--free-turn turns the tool about its axis from an orientation that is stated: tool_orientation in the template, or --tool-orientation",
         ));
     };
     let mechanism = model.mechanism.with_tool(&tool);
@@ -62,9 +60,8 @@ pub(crate) fn base_of_source(read: &ReadProgram<'_>) -> Option<Isometry3<f64>> {
 fn known(frame: &StatedFrame, what: &str) -> Answer<Pose> {
     let pose = frame.pose.as_ref().map(in_metres);
     pose.ok_or_else(|| {
-        Failure::new(
-            ErrorCode::Missing,
-            format!("--free-turn needs to know {what}, in the template (--template)"),
-        )
+        ErrorCode::Missing.failure(format!(
+            "--free-turn needs to know {what}, in the template (--template)"
+        ))
     })
 }

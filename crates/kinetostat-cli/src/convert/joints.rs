@@ -18,7 +18,7 @@ use crate::job::robot::frames::in_metres;
 use crate::job::robot::joint_arm::ArmOfTable;
 use crate::job::robot_arguments::JointRowsWord;
 use crate::job::setting::Setting;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 
 /// Uses all digits: the poses are only an intermediate result.
 pub(crate) fn with_all_digits(template: &mut Template) {
@@ -42,9 +42,7 @@ pub(crate) fn as_joints(
     let (base, tool) = frames(template, read)?;
     let mechanism = asked.model.mechanism.with_tool(&tool);
     let Some(arm) = ArmOfTable::of(asked.model, &tool).map(Arc::new) else {
-        return Err(Failure::new(
-            ErrorCode::ModelUnsuited,
-            format!(
+        return Err(ErrorCode::ModelUnsuited.failure(format!(
                 "the model '{}' is no arm of six turning joints in one chain: name one with --model, or write poses (--to csv)",
                 asked.model.name()
             ),
@@ -75,10 +73,7 @@ pub(crate) fn as_joints(
     let done = joint_table(bytes, &table, &start);
     let done = done.map_err(|error| {
         let line = source_line(made, error.line);
-        setting.within(Failure::new(
-            ErrorCode::ProgramUnsuited,
-            format!("line {line}: {}", error.reason),
-        ))
+        setting.within(ErrorCode::ProgramUnsuited.failure(format!("line {line}: {}", error.reason)))
     })?;
     for (line, joints) in &done.rows {
         let commands = arm.model_joints(joints);
@@ -86,7 +81,7 @@ pub(crate) fn as_joints(
         if let Err(error) = posture.and_then(|posture| posture.within_limits()) {
             let line = source_line(made, *line);
             let failure = Failure::from(error);
-            return Err(setting.within(Failure::new(ErrorCode::ProgramUnsuited, format!(
+            return Err(setting.within(ErrorCode::ProgramUnsuited.failure(format!(
                 "line {line}: {}: move the part, turn the tool about its axis (--free-turn), or begin in another configuration (start_joints_deg in the template)",
                 failure.plain
             ))));
@@ -139,26 +134,16 @@ fn first_joints(
     let first = moves.find(|motion| motion.known != Knowledge::Nothing);
     let turned = |motion: &Move| motion.orientation(1.0).or(template.tool_orientation);
     let Some((motion, turn)) = first.and_then(|motion| Some((motion, turned(motion)?))) else {
-        return Err(Failure::new(
-            ErrorCode::ProgramUnsuited,
-            "the path has no place, or does not say how the tool stands: state its orientation (tool_orientation in the template, or --tool-orientation)",
+        return Err(ErrorCode::ProgramUnsuited.failure("the path has no place, or does not say how the tool stands: state its orientation (tool_orientation in the template, or --tool-orientation)",
         ));
     };
     let pose = in_metres(&(base * Isometry3::from_parts(motion.end.into(), turn)));
     let posture = mechanism.posture(&pose).map_err(|error| {
         let failure = Failure::from(error);
-        Failure::new(
-            ErrorCode::ProgramUnsuited,
-            format!("line {}: {}", motion.line, failure.plain),
-        )
+        ErrorCode::ProgramUnsuited.failure(format!("line {}: {}", motion.line, failure.plain))
     })?;
     let commands = <[f64; 6]>::try_from(posture.commands());
-    commands.map_err(|_| {
-        Failure::new(
-            ErrorCode::ModelUnsuited,
-            "the model has other joints than six",
-        )
-    })
+    commands.map_err(|_| ErrorCode::ModelUnsuited.failure("the model has other joints than six"))
 }
 
 /// Poses of part in base, mm, and tool in flange, m: of the template, else of the program.
@@ -166,9 +151,7 @@ fn frames(template: &Template, read: &ReadProgram<'_>) -> Answer<(Isometry3<f64>
     let robot = read.robot().map(|robot| &robot.path);
     let several = robot.is_some_and(|path| path.tools.len() > 1) || template.tools.len() > 1;
     if several {
-        return Err(Failure::new(
-            ErrorCode::ProgramUnsuited,
-            "the program takes several tools, and a table of joint values is of one: divide the program",
+        return Err(ErrorCode::ProgramUnsuited.failure("the program takes several tools, and a table of joint values is of one: divide the program",
         ));
     }
     let of_source = |frame: &FrameUse| frame.known().copied();
@@ -180,9 +163,7 @@ fn frames(template: &Template, read: &ReadProgram<'_>) -> Answer<(Isometry3<f64>
     let of_template = numbered.map_or(template.tool.frame.pose, |tool| tool.frame.pose);
     let tool = of_template.or_else(|| robot.and_then(|path| of_source(path.tools.first()?)));
     let missing = |what: &str| {
-        Failure::new(
-            ErrorCode::Missing,
-            format!(
+        ErrorCode::Missing.failure(format!(
                 "joint values need to know {what}, and neither the program nor the template (--template) says it"
             ),
         )

@@ -11,7 +11,7 @@ use crate::job::program::ReadProgram;
 use crate::job::setting::Setting;
 use crate::job::template_file::TemplateFile;
 use crate::program::summary::SPINDLE_NOT_STARTED;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::fault_list::failure_of;
 
 /// The program in the other language.
@@ -34,9 +34,7 @@ pub(crate) fn made(
         return done.map_err(refused);
     }
     if language == MakeLanguage::Gcode {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            "the program is in G-code already: `kinetostat expand` writes it flat, `kinetostat compensate --no-compensation` as it was read",
+        return Err(ErrorCode::Unused.failure("the program is in G-code already: `kinetostat expand` writes it flat, `kinetostat compensate --no-compensation` as it was read",
         ));
     }
     let mut events = read
@@ -62,7 +60,7 @@ pub(crate) fn spindle_text(made: &Made) -> Option<String> {
 
 fn refused(setting: &Setting, template: &TemplateFile, all: &[MakeError]) -> Failure {
     let Some(first) = all.first() else {
-        return Failure::new(ErrorCode::ProgramRefused, "the program is refused");
+        return ErrorCode::ProgramRefused.failure("the program is refused");
     };
     let failure = failure_of(ErrorCode::ProgramRefused, "lines", first, all);
     match (first.is_of_template, &template.name) {

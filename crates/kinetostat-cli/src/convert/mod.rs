@@ -43,7 +43,7 @@ use crate::job::setting::{Setting, setting};
 use crate::job::target_word::TargetWord;
 use crate::job::template_file::{TemplateAsked, TemplateFile};
 use crate::job::turn_arguments::FreeTurnWord;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::layout::{item, wrapped};
 use crate::ui::screen::{self, Stream};
 
@@ -188,9 +188,7 @@ fn with_arm(
             ("--joint-rows", args.joint_rows.is_some()),
         ];
         if let Some((option, _)) = given.into_iter().find(|(_, is_given)| *is_given) {
-            return Err(Failure::new(
-                ErrorCode::Unused,
-                format!(
+            return Err(ErrorCode::Unused.failure(format!(
                     "{option} is for tables of joint values, and neither '{}' nor the new program is one: leave it out",
                     setting.program_name
                 ),

@@ -13,7 +13,7 @@ use crate::job::program::ReadProgram;
 use crate::job::robot::frames::in_metres;
 use crate::job::setting::Setting;
 use crate::job::template_file::TemplateFile;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::numbers::short;
 
 /// Rotations smaller than this are none, degrees.
@@ -109,9 +109,7 @@ fn refuse_radians(template: &Template, read: &ReadProgram<'_>) -> Answer<()> {
         deg > NO_TURN_DEG && kinetostat_model::looks_like_radians(deg)
     };
     match all.into_iter().find(odd) {
-        Some((what, turn)) => Err(Failure::new(
-            ErrorCode::Value,
-            format!(
+        Some((what, turn)) => Err(ErrorCode::Value.failure(format!(
                 "the orientation of the {what} turns by {} deg, which is {} deg in radians: orientations are in degrees here; write them in degrees, or under a name that ends with _rad",
                 short(turn.angle().to_degrees()),
                 short(turn.angle().to_degrees().to_degrees())

@@ -14,7 +14,7 @@ use crate::end_condition::coordinates::CoordinateName;
 use crate::end_condition::holding::Holding;
 use crate::machine::displacement_warnings::{large_reaction, stretches};
 use crate::place::query::AnswerHead;
-use crate::ui::failure::Failure;
+use crate::ui::failure::{Failing, Failure};
 
 /// The answer, stable names with units.
 #[derive(Serialize, JsonSchema)]
@@ -82,8 +82,7 @@ impl CurveAnswer {
     pub(crate) fn unanswered(&self) -> Option<Failure> {
         let points: usize = self.branches.iter().map(|b| b.points.len()).sum();
         (points < 2 && !self.force_limited).then(|| {
-            Failure::new(ErrorCode::NotConverged,
-                "the curve could not be followed from its start: no second equilibrium was found near it. Check what grows and its unit, or how far",
+            ErrorCode::NotConverged.failure("the curve could not be followed from its start: no second equilibrium was found near it. Check what grows and its unit, or how far",
             )
         })
     }

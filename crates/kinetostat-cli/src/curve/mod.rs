@@ -45,7 +45,7 @@ use crate::files::answer_files::Shown;
 use crate::place::query::{AnswerHead, PlaceAnswer, PlaceQuery};
 use crate::ui::background::Stage;
 use crate::ui::csv_table::{cell, cell_if_any, written};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::numbers::number;
 use crate::ui::result_form::ResultForm;
 
@@ -273,9 +273,7 @@ fn not_there(q: &CurveQuery, there: &ChainProblem<'_>, error: kinetostat::Error)
         Measure::Moment(_) => "deg",
         _ => "mm",
     };
-    Failure::new(
-        ErrorCode::NotConverged,
-        format!(
+    ErrorCode::NotConverged.failure(format!(
             "{error}; nothing loads the chain: its tool may be out of reach where the curve starts, {} {unit} from the commanded place. Start nearer to that place",
             number(q.shown(q.start()), 6)
         ),

@@ -13,7 +13,7 @@ use crate::end_condition::loads::{constant, constant_loads_text, no_growing_node
 use crate::end_condition::moves::Moves;
 use crate::options::vector;
 use crate::place::query::FARTHEST;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::{number, short, triple};
 
 /// Quantity in which a curve is shown.
@@ -81,9 +81,7 @@ impl CurveQuery {
 fn ends(option: &str, values: &[f64]) -> Answer<(f64, f64)> {
     let (a, b) = (values[0], values[1]);
     if a == b {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!(
+        return Err(ErrorCode::Value.failure(format!(
                 "{option} goes from {a} to {b}: there is nothing between equal ends; give two different numbers"
             ),
         ));
@@ -96,10 +94,9 @@ fn unit(option: &str, values: &[f64]) -> Answer<Vector3<f64>> {
     // The direction is scaled first: squares of very large or very small numbers overflow or underflow.
     let most = largest_size(&v);
     if most == 0.0 {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!("{option} 0 0 0 is no direction; give one, as in {option} 1 0 0"),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "{option} 0 0 0 is no direction; give one, as in {option} 1 0 0"
+        )));
     }
     Ok((v / most).normalize())
 }
@@ -138,10 +135,9 @@ pub(crate) fn curve_query(
     ];
     for (option, value, low, high) in counts {
         if value.is_some_and(|v| !(low..=high).contains(&v)) {
-            return Err(Failure::new(
-                ErrorCode::Value,
-                format!("{option} takes a number from {low} to {high}"),
-            ));
+            return Err(
+                ErrorCode::Value.failure(format!("{option} takes a number from {low} to {high}"))
+            );
         }
     }
     let mut query = CurveQuery {
@@ -171,18 +167,14 @@ pub(crate) fn curve_query(
         (None, Some(about), None) => turned(&mut query, about, args)?,
         (None, None, Some(range)) => query.range = ends("--factor", range)?,
         _ => {
-            return Err(Failure::new(
-                ErrorCode::Missing,
-                "what shall grow? Either a displacement (--direction X Y Z --displacement-mm FROM TO, or --about X Y Z --turn-deg FROM TO) or a load (--force FX FY FZ --factor FROM TO)",
+            return Err(ErrorCode::Missing.failure("what shall grow? Either a displacement (--direction X Y Z --displacement-mm FROM TO, or --about X Y Z --turn-deg FROM TO) or a load (--force FX FY FZ --factor FROM TO)",
             ));
         }
     }
     if query.driven.is_some()
         && (args.force.is_some() || args.moment.is_some() || !args.grow.is_empty())
     {
-        return Err(Failure::new(
-            ErrorCode::Conflict,
-            "--force, --moment and --grow are loads that grow with --factor; here the motion grows. A load that acts all the time is --constant-force, --constant-moment or --load NODE=FX,FY,FZ",
+        return Err(ErrorCode::Conflict.failure("--force, --moment and --grow are loads that grow with --factor; here the motion grows. A load that acts all the time is --constant-force, --constant-moment or --load NODE=FX,FY,FZ",
         ));
     }
     if let Some(driven) = query.driven {
@@ -200,17 +192,14 @@ pub(crate) fn curve_query(
 /// The tool is pushed along a direction.
 fn pushed(query: &mut CurveQuery, direction: &[f64], args: &CurveArgs) -> Answer<()> {
     let range = args.displacement_mm.as_ref().ok_or_else(|| {
-        Failure::new(
-            ErrorCode::Missing,
+        ErrorCode::Missing.failure(
             "how far? --direction needs --displacement-mm FROM TO, as in --displacement-mm 0 20",
         )
     })?;
     let (low, high) = ends("--displacement-mm", range)?;
     if 1e-3 * larger(low.abs(), high.abs()) > FARTHEST {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            "--displacement-mm leads farther than 10 km; displacements are in mm",
-        ));
+        return Err(ErrorCode::Value
+            .failure("--displacement-mm leads farther than 10 km; displacements are in mm"));
     }
     query.range = (1e-3 * low, 1e-3 * high);
     query.measure = Measure::Force(1.0);
@@ -231,17 +220,14 @@ fn pushed(query: &mut CurveQuery, direction: &[f64], args: &CurveArgs) -> Answer
 /// The tool is turned about a direction.
 fn turned(query: &mut CurveQuery, about: &[f64], args: &CurveArgs) -> Answer<()> {
     let range = args.turn_deg.as_ref().ok_or_else(|| {
-        Failure::new(
-            ErrorCode::Missing,
-            "how far? --about needs --turn-deg FROM TO, as in --turn-deg 0 5",
-        )
+        ErrorCode::Missing
+            .failure("how far? --about needs --turn-deg FROM TO, as in --turn-deg 0 5")
     })?;
     let (low, high) = ends("--turn-deg", range)?;
     if low < -180.0 || high > 180.0 {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            "--turn-deg: the tool can be turned by -180 to 180 degrees",
-        ));
+        return Err(
+            ErrorCode::Value.failure("--turn-deg: the tool can be turned by -180 to 180 degrees")
+        );
     }
     query.range = (low.to_radians(), high.to_radians());
     query.measure = Measure::Moment(1.0);
@@ -287,9 +273,7 @@ fn load_pattern(
         })
         .collect();
     if force == 0.0 && moment == 0.0 && sizes.iter().all(|s| *s == 0.0) {
-        return Err(Failure::new(
-            ErrorCode::Missing,
-            "which load shall grow? Give --force FX FY FZ, --moment MX MY MZ or --grow NODE=FX,FY,FZ, not all zero",
+        return Err(ErrorCode::Missing.failure("which load shall grow? Give --force FX FY FZ, --moment MX MY MZ or --grow NODE=FX,FY,FZ, not all zero",
         ));
     }
     query.measure = match (force > 0.0, moment > 0.0, sizes.as_slice()) {
@@ -332,9 +316,7 @@ fn load_pattern(
     let length = moves.directions.length;
     let pull = Vector6::from_fn(|i, _| if i < 3 { end.0[i] * length } else { end.0[i] });
     if loads.is_empty() && (moves.directions.basis.transpose() * pull).norm() < 1e-9 * pull.norm() {
-        return Err(Failure::new(
-            ErrorCode::RigidDirection,
-            format!(
+        return Err(ErrorCode::RigidDirection.failure(format!(
                 "the growing load does nothing: the {} is rigid in {}, where it acts. Choose another direction",
                 moves.subject,
                 holding.rigid.join(", ")

@@ -39,7 +39,7 @@ use crate::long::which::{
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::given::Given;
 use crate::ui::result_form::ResultForm;
 
@@ -54,9 +54,7 @@ pub(crate) fn run(args: DeflectArgs, given: &Given) -> Answer<()> {
     let is_job = !args.place.given() && FileKind::of_file(subject) == Some(FileKind::Job);
     if is_job || args.program.program.is_some() {
         if args.place.given() {
-            return Err(Failure::new(
-                ErrorCode::Conflict,
-                "--at, --joints and --controller ask for one place, --program for all of a program: keep one of them",
+            return Err(ErrorCode::Conflict.failure("--at, --joints and --controller ask for one place, --program for all of a program: keep one of them",
             ));
         }
         given.refuse(

@@ -12,7 +12,7 @@ use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::machine::displacement_warnings::snaps;
 use crate::place::query::place_query;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::given::Given;
 use crate::ui::json;
 
@@ -24,9 +24,7 @@ fn without_load(error: kinetostat::Error) -> Failure {
             load_factor,
             limit: None,
             ..
-        } => Failure::new(
-            ErrorCode::NotConverged,
-            format!(
+        } => ErrorCode::NotConverged.failure(format!(
                 "{place}: without any load on the tool, weights, preloads and deviations of the model lead from the commanded place to no equilibrium (only {} of them could be followed); check them, or let `kinetostat equilibria` search for the shapes that the machine can take",
                 kinetostat_machining::number::share(*load_factor)
             ),

@@ -20,7 +20,7 @@ use crate::options::{EXIT_CODES, whole};
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::layout::{listed, wrapped};
 use crate::ui::result_form::ResultForm;
 use crate::ui::safe_text::safe;
@@ -117,20 +117,17 @@ fn directory(path: &Path) -> Answer<bool> {
                 }
                 _ => description(&error),
             };
-            Err(Failure::new(
-                ErrorCode::Output,
-                format!(
-                    "the directory '{}' cannot be made: {reason}; choose another with --out",
-                    path.display()
-                ),
-            ))
+            Err(ErrorCode::Output.failure(format!(
+                "the directory '{}' cannot be made: {reason}; choose another with --out",
+                path.display()
+            )))
         }
     }
 }
 
 fn in_directory(args: &DemoArgs) -> Answer<()> {
     let preset = preset_text("orthoglide")
-        .ok_or_else(|| Failure::new(ErrorCode::Internal, "the preset orthoglide is missing"))?;
+        .ok_or_else(|| ErrorCode::Internal.failure("the preset orthoglide is missing"))?;
     let model_text = format!("{preset}{DEVIATIONS}");
     let at = |name: &str| args.out.join(name);
     let sources = [

@@ -11,7 +11,7 @@ use kinetostat_program::{CODES, MOMENTS, Moment, Placed, Treatment as OfCode};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::json;
 use crate::ui::layout::{listed, wrapped};
 use crate::ui::result_form::ResultForm;
@@ -50,13 +50,10 @@ fn named(name: &str) -> Answer<Language> {
     let found = languages().find(|language| language.name == lower);
     found.ok_or_else(|| {
         let names: Vec<&str> = languages().map(|language| language.name).collect();
-        Failure::new(
-            ErrorCode::UnknownName,
-            format!(
-                "there is no language `{name}`; there are: {}",
-                names.join(", ")
-            ),
-        )
+        ErrorCode::UnknownName.failure(format!(
+            "there is no language `{name}`; there are: {}",
+            names.join(", ")
+        ))
     })
 }
 

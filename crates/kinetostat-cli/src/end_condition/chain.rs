@@ -10,7 +10,7 @@ use crate::end_condition::coordinates::{CoordinateName, coordinates_of, values_o
 use crate::end_condition::moves::Moves;
 use crate::end_condition::subject::{Subject, motion_description};
 use crate::place::query::PlaceQuery;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// The chain of a machine that is one, commanded for a place.
 pub(crate) fn serial_chain(query: &PlaceQuery) -> Answer<SerialChain> {
@@ -50,12 +50,8 @@ impl Subject for SerialChain {
 
 /// A dead force at a node of a chain, written `NODE=FX,FY,FZ`; `before`: what stands in the option before the node.
 pub(crate) fn node_force(chain: &Chain, option: &str, before: &str, text: &str) -> Answer<Load> {
-    let refuse = |reason: String| {
-        Failure::new(
-            ErrorCode::Value,
-            format!("{option} '{before}{text}': {reason}"),
-        )
-    };
+    let refuse =
+        |reason: String| ErrorCode::Value.failure(format!("{option} '{before}{text}': {reason}"));
     let Some((name, values)) = text.split_once('=') else {
         return Err(refuse(format!(
             "write a node of the chain and three forces in N, as in {option} {before}{}=0,0,-100",

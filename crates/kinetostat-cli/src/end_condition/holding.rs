@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::end_condition::arguments::EndArgs;
 use crate::end_condition::moves::Moves;
 use crate::place::orientation;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::{short, triple};
 
 pub(crate) const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
@@ -78,9 +78,7 @@ pub(crate) fn list(option: &str, text: &str, driven: Option<usize>) -> Answer<[b
             "rotations" => set[3..].fill(true),
             "others" => {
                 let Some(driven) = driven else {
-                    return Err(Failure::new(
-                        ErrorCode::Value,
-                        format!(
+                    return Err(ErrorCode::Value.failure(format!(
                             "{option} {text}: 'others' means all directions but the one along which the tool is pushed, and here it is pushed along none; name the directions"
                         ),
                     ));
@@ -92,9 +90,7 @@ pub(crate) fn list(option: &str, text: &str, driven: Option<usize>) -> Answer<[b
             name => match DIRECTIONS.iter().position(|d| *d == name) {
                 Some(k) => set[k] = true,
                 None => {
-                    return Err(Failure::new(
-                        ErrorCode::UnknownName,
-                        format!(
+                    return Err(ErrorCode::UnknownName.failure(format!(
                             "{option} {text}: '{word}' is no direction; there are x, y, z (moves along) and rx, ry, rz (turns about), and the words all, none, translations, rotations, others"
                         ),
                     ));
@@ -142,9 +138,7 @@ pub(crate) fn holding(
         (Some(text), _) => list("--hold", text, driven_axis(&axes))?.map(|held| !held),
         (None, Some(text)) => {
             if others(&args.free) && driven.is_some() && driven_axis(&axes).is_none() {
-                return Err(Failure::new(
-                    ErrorCode::Unused,
-                    "--free others: with these --axes the tool is not pushed along one of the axes; leave --axes out, then they follow the direction",
+                return Err(ErrorCode::Unused.failure("--free others: with these --axes the tool is not pushed along one of the axes; leave --axes out, then they follow the direction",
                 ));
             }
             list("--free", text, driven_axis(&axes))?
@@ -157,9 +151,7 @@ pub(crate) fn holding(
     if let Some(d) = driven {
         let twist = d.twist();
         if moves.directions.share(&twist) < 1.0 - 1e-6 {
-            return Err(Failure::new(
-                ErrorCode::RigidDirection,
-                format!(
+            return Err(ErrorCode::RigidDirection.failure(format!(
                     "the tool cannot be moved {}: the {} is rigid {}. Choose a direction in which it can move",
                     d.description(),
                     moves.subject,
@@ -169,9 +161,7 @@ pub(crate) fn holding(
         }
         let local = turn.transpose() * twist;
         if let Some(k) = (0..6).find(|&k| free[k] && local[k].abs() > 1e-9) {
-            return Err(Failure::new(
-                ErrorCode::Conflict,
-                format!(
+            return Err(ErrorCode::Conflict.failure(format!(
                     "the tool is pushed {}, and is to be free in '{}', which is a part of that: hold it there, or write --free others to free all that is across",
                     d.description(),
                     DIRECTIONS[k]
@@ -223,9 +213,7 @@ impl Holding {
         let wrong = (0..6)
             .find(|&k| self.end.prescribed[k] == Prescribed::Pose && local[k].abs() > 1e-9 * most);
         match wrong {
-            Some(k) => Err(Failure::new(
-                ErrorCode::Conflict,
-                format!(
+            Some(k) => Err(ErrorCode::Conflict.failure(format!(
                     "{what} has a part in '{}', where the tool is held: it would change nothing. Free that direction (--free {}), or leave that part out",
                     DIRECTIONS[k], DIRECTIONS[k]
                 ),

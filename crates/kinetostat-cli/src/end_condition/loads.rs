@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use crate::end_condition::arguments::EndArgs;
 use crate::end_condition::chain::node_force;
 use crate::options::vector;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 
 /// The wrench of two options.
 pub(crate) fn wrench(
@@ -31,9 +31,7 @@ pub(crate) fn constant(args: &EndArgs) -> Answer<Wrench> {
 
 /// A growing force on a node was requested of a machine.
 pub(crate) fn no_growing_nodes(option: &str) -> Failure {
-    Failure::new(
-        ErrorCode::ModelUnsuited,
-        format!(
+    ErrorCode::ModelUnsuited.failure(format!(
             "{option} lets a force on a node grow, and this model has several limbs. The curve of a machine has the motions of its tool and the load on its tool as unknowns, and everything else follows from them: only a load on the tool can grow there (--force, --moment). A force on a node that acts all the time is --load LIMB:NODE=FX,FY,FZ"
         ),
     )

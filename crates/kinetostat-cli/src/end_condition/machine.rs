@@ -13,7 +13,7 @@ use crate::end_condition::coordinates::{CoordinateName, coordinates_of, values_o
 use crate::end_condition::moves::Moves;
 use crate::end_condition::subject::{Subject, motion_description};
 use crate::place::query::PlaceQuery;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// A machine commanded for a place.
 pub(crate) struct CommandedMachine {
@@ -62,9 +62,7 @@ fn with_node_force(mechanism: &Mechanism, text: &str) -> Answer<Mechanism> {
     });
     let Some((limb, own)) = named else {
         let names: Vec<&str> = limbs.iter().map(|limb| limb.name.as_str()).collect();
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!(
+        return Err(ErrorCode::Value.failure(format!(
                 "--load '{text}': this model has several limbs, so name the limb before its node, as in --load {}:tip=0,0,-100. It has: {}",
                 names.first().copied().unwrap_or_default(),
                 names.join(", ")

@@ -25,7 +25,7 @@ use crate::job::cut::{CutSetup, FilesOfCut, cut_setup};
 use crate::job::format::Job;
 use crate::job::job_file::JobFile;
 use crate::job::setting::program_path;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::short;
 
 /// The cut, each part of it from the options, and else from the job.
@@ -39,7 +39,7 @@ pub(super) fn cut(
         no_factors(&args.material)?;
         let of_job = cut_setup(files, job, flags, &as_programmed())?;
         return of_job.ok_or_else(|| {
-            Failure::new(ErrorCode::Missing, format!(
+            ErrorCode::Missing.failure(format!(
                 "the job file '{}' names no material: without it nothing is known of a cut; write [material] name = \"AlMg4.5Mn\" with [stock] (or [engagement]) and the cutter of the tool, or give --material, --block-mm and --tool",
                 j.path.display()
             ))
@@ -53,9 +53,7 @@ pub(super) fn cut(
         _ => own_cutters(files, &args.tool, (job, flags), &mut read)?,
     };
     let Some((smallest, largest)) = extremes(&cutters) else {
-        return Err(Failure::new(
-            ErrorCode::Missing,
-            "no tool: the program calls none of the table (T); give --tool-number for the whole program",
+        return Err(ErrorCode::Missing.failure("no tool: the program calls none of the table (T); give --tool-number for the whole program",
         ));
     };
     let of_job = job.and_then(|j| Some((j, j.job.material.as_ref()?)));
@@ -80,8 +78,8 @@ pub(super) fn cut(
     {
         (Some(own), _) => own,
         (None, Some(j)) => where_it_cuts((files, &mut read), j, (smallest, largest))?
-            .ok_or_else(|| Failure::new(ErrorCode::Missing, NO_STOCK))?,
-        (None, None) => return Err(Failure::new(ErrorCode::Missing, NO_STOCK)),
+            .ok_or_else(|| ErrorCode::Missing.failure(NO_STOCK))?,
+        (None, None) => return Err(ErrorCode::Missing.failure(NO_STOCK)),
     };
     words.push(source_words);
     let table = job.and_then(|j| j.job.spindle.as_ref().map(|s| (j, s.get_ref())));
@@ -167,7 +165,7 @@ fn nothing_missing(job: Option<&JobFile>, args: &EngagementArgs) -> Answer<()> {
     }
     match missing.is_empty() {
         true => Ok(()),
-        false => Err(Failure::new(ErrorCode::Missing, missing.join("; "))),
+        false => Err(ErrorCode::Missing.failure(missing.join("; "))),
     }
 }
 
@@ -183,12 +181,9 @@ fn no_factors(args: &MaterialArgs) -> Answer<()> {
         ("--process-factor", args.process_factor.is_some()),
     ];
     match given.iter().find(|(_, given)| *given) {
-        Some((option, _)) => Err(Failure::new(
-            ErrorCode::Missing,
-            format!(
-                "{option} needs --material: the job names the material together with its factors"
-            ),
-        )),
+        Some((option, _)) => Err(ErrorCode::Missing.failure(format!(
+            "{option} needs --material: the job names the material together with its factors"
+        ))),
         None => Ok(()),
     }
 }
@@ -208,15 +203,11 @@ fn own_material(
     let speed = match (args.material.correct_speed, args.turning.rpm) {
         (false, _) => None,
         (true, None) => {
-            return Err(Failure::new(
-                ErrorCode::Missing,
-                "--correct-speed needs --rpm: the cutting speed follows from it",
-            ));
+            return Err(ErrorCode::Missing
+                .failure("--correct-speed needs --rpm: the cutting speed follows from it"));
         }
         (true, Some(_)) if smallest.diameter_mm() < largest.diameter_mm() => {
-            return Err(Failure::new(
-                ErrorCode::Unused,
-                "--correct-speed: tools of different diameters have different cutting speeds; leave it out, or look at one tool after the other",
+            return Err(ErrorCode::Unused.failure("--correct-speed: tools of different diameters have different cutting speeds; leave it out, or look at one tool after the other",
             ));
         }
         (true, Some(rpm)) => Some(1e-3 * PI * largest.diameter_mm() * rpm),
@@ -279,10 +270,7 @@ fn block(
     tools: (&Tool, &Tool),
 ) -> Answer<(EngagementSource, String)> {
     let [x0, y0, z0, x1, y1, z1] = corners[..] else {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            "--block-mm needs six numbers",
-        ));
+        return Err(ErrorCode::Value.failure("--block-mm needs six numbers"));
     };
     let refuse = |about: About, message: &str, help: &str| {
         let option = match about {
@@ -290,7 +278,7 @@ fn block(
             About::Memory => "--memory-mb",
             About::Stock => "--block-mm",
         };
-        Failure::new(ErrorCode::Value, format!("{option}: {message}; {help}"))
+        ErrorCode::Value.failure(format!("{option}: {message}; {help}"))
     };
     let resolution = Resolution {
         cell_mm: args.cell_mm,
@@ -317,9 +305,7 @@ fn everywhere(
     (smallest, largest): (&Tool, &Tool),
 ) -> Answer<(EngagementSource, String)> {
     if smallest.diameter_mm() < largest.diameter_mm() {
-        return Err(Failure::new(
-            ErrorCode::Missing,
-            "--width-mm: a width of cut is another engagement for tools of different diameters; give --block-mm, from which each tool has its own",
+        return Err(ErrorCode::Missing.failure("--width-mm: a width of cut is another engagement for tools of different diameters; give --block-mm, from which each tool has its own",
         ));
     }
     let radius = smallest.radius_mm();
@@ -328,9 +314,7 @@ fn everywhere(
         Some(PartWord::Right) => Side::Right,
         None if width >= 2.0 * radius => Side::Left,
         None => {
-            return Err(Failure::new(
-                ErrorCode::Missing,
-                "on which side is the part? Give --part left or --part right as seen along the feed",
+            return Err(ErrorCode::Missing.failure("on which side is the part? Give --part left or --part right as seen along the feed",
             ));
         }
     };

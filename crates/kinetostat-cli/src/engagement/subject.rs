@@ -4,7 +4,7 @@ use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use crate::engagement::arguments::EngagementArgs;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Job file and program, as far as they are named.
 pub(super) struct Subject<'a> {
@@ -20,14 +20,11 @@ pub(super) fn subject(args: &EngagementArgs) -> Answer<Subject<'_>> {
         ending.is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
     };
     let twice = |what: &str, a: &Path, b: &Path| {
-        Err(Failure::new(
-            ErrorCode::Conflict,
-            format!(
-                "two {what} are named: '{}' and '{}'; keep one of them",
-                a.display(),
-                b.display()
-            ),
-        ))
+        Err(ErrorCode::Conflict.failure(format!(
+            "two {what} are named: '{}' and '{}'; keep one of them",
+            a.display(),
+            b.display()
+        )))
     };
     let named = args.subject.as_deref();
     let (job, program) = match named.map(is_job) {

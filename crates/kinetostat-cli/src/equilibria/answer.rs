@@ -12,7 +12,7 @@ use crate::end_condition::coordinates::CoordinateName;
 use crate::end_condition::holding::Holding;
 use crate::machine::displacement_warnings::{large_reaction, stretches};
 use crate::place::query::AnswerHead;
-use crate::ui::failure::Failure;
+use crate::ui::failure::{Failing, Failure};
 use crate::ui::numbers::number;
 
 /// The answer, stable names with units.
@@ -133,10 +133,10 @@ impl EquilibriaAnswer {
     /// Returns a failure if nothing was found, which does not prove that there is no equilibrium.
     pub(crate) fn unanswered(&self) -> Option<Failure> {
         self.equilibria.is_empty().then(|| {
-            Failure::new(
-                ErrorCode::NotConverged,
-                format!("no equilibrium of the {} was found", self.tool_held.subject),
-            )
+            ErrorCode::NotConverged.failure(format!(
+                "no equilibrium of the {} was found",
+                self.tool_held.subject
+            ))
         })
     }
 

@@ -9,7 +9,7 @@ use crate::end_condition::loads::{constant, constant_loads_text, wrench};
 use crate::end_condition::moves::Moves;
 use crate::equilibria::arguments::EquilibriaArgs;
 use crate::options::vector;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::{load_triple, short, triple};
 
 pub(crate) struct EquilibriaQuery {
@@ -35,8 +35,7 @@ pub(crate) fn equilibria_query(moves: &Moves, args: &EquilibriaArgs) -> Answer<E
     let shift = part("--displaced-mm", &args.displaced_mm)?;
     let turn = part("--turned-deg", &args.turned_deg)?;
     if turn.norm() > 180.0 {
-        return Err(Failure::new(
-            ErrorCode::Value,
+        return Err(ErrorCode::Value.failure(
             "--turned-deg: the tool can be turned by 180 degrees at most (the length of the three)",
         ));
     }
@@ -44,9 +43,7 @@ pub(crate) fn equilibria_query(moves: &Moves, args: &EquilibriaArgs) -> Answer<E
     let twist = Twist::new(shift * 1e-3, turn.map(f64::to_radians));
     let subject = moves.subject;
     if twist.0.amax() > 0.0 && moves.directions.share(&twist.0) < 1.0 - 1e-6 {
-        return Err(Failure::new(
-            ErrorCode::RigidDirection,
-            format!(
+        return Err(ErrorCode::RigidDirection.failure(format!(
                 "the tool cannot be held there: the {subject} cannot move its end that way (a planar {subject} stays in its plane). Leave out the part of --displaced-mm and --turned-deg across it",
             ),
         ));
@@ -57,10 +54,9 @@ pub(crate) fn equilibria_query(moves: &Moves, args: &EquilibriaArgs) -> Answer<E
     let count = |option: &str, value: Option<usize>, default: usize| match value {
         None => Ok(default),
         Some(n) if (1..=10_000_000).contains(&n) => Ok(n),
-        Some(_) => Err(Failure::new(
-            ErrorCode::Value,
-            format!("{option} takes a number from 1 to 10000000"),
-        )),
+        Some(_) => {
+            Err(ErrorCode::Value.failure(format!("{option} takes a number from 1 to 10000000")))
+        }
     };
     let default = SearchSettings::default();
     let settings = default
@@ -112,9 +108,7 @@ fn refuse_displaced_and_free(held: &Holding, twist: &Twist) -> Answer<()> {
         held.end.prescribed[k] == kinetostat::Prescribed::Wrench && local[k].abs() > 1e-9 * most
     });
     match wrong {
-        Some(k) => Err(Failure::new(
-            ErrorCode::Conflict,
-            format!(
+        Some(k) => Err(ErrorCode::Conflict.failure(format!(
                 "the tool is to be displaced in '{0}' and free in '{0}': hold it there, or leave that part of the displacement out",
                 crate::end_condition::holding::DIRECTIONS[k]
             ),

@@ -26,7 +26,7 @@ use crate::job::robot::settings::{moving_subprograms, settings as robot_settings
 use crate::job::robot::source::{RobotSource, slash_blocks};
 use crate::job::robot_arguments::{RobotArgs, StatedArgs};
 use crate::job::setting::line_count;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::layout::{item, wrapped};
 use crate::ui::screen::{Stream, print, print_bytes};
 
@@ -47,12 +47,9 @@ pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
         return of_control(args, language, bytes);
     }
     if let Some(option) = args.stated.of_others() {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            format!(
-                "{option} is for programs of robots, and '{name}' is read as G-code; leave it out"
-            ),
-        ));
+        return Err(ErrorCode::Unused.failure(format!(
+            "{option} is for programs of robots, and '{name}' is read as G-code; leave it out"
+        )));
     }
     let mut settings = settings(None, &args.with, &reading(None, &args.reading)?)?;
     settings.options.reading.moving_calls = moving_subprograms(None, &args.stated)?;
@@ -86,10 +83,9 @@ pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
 fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<()> {
     let other = args.with.given_for_gcode();
     if let Some(option) = other.filter(|option| *option != NO_COMMENTS) {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            format!("{option} is for programs in G-code; leave it out"),
-        ));
+        return Err(
+            ErrorCode::Unused.failure(format!("{option} is for programs in G-code; leave it out"))
+        );
     }
     let folders = folders(&args.with)?;
     let name = args.program.file_name().unwrap_or_default();

@@ -9,7 +9,7 @@ use schemars::{JsonSchema, Schema, schema_for};
 use serde_json::Value;
 
 use crate::options::EXIT_CODES;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::layout::{listed, wrapped};
 use crate::ui::screen::{self, Stream};
 use crate::ui::spelling::nearest;
@@ -40,10 +40,9 @@ fn unknown<'c>(code: &str, known: impl Iterator<Item = &'c (String, String)>) ->
         Some(near) => format!("did you mean '{near}'? "),
         None => String::new(),
     };
-    Failure::new(
-        ErrorCode::UnknownName,
-        format!("there is no code '{code}'; {near}`kinetostat explain` lists all codes"),
-    )
+    ErrorCode::UnknownName.failure(format!(
+        "there is no code '{code}'; {near}`kinetostat explain` lists all codes"
+    ))
 }
 
 /// Codes with the first paragraph of their texts.

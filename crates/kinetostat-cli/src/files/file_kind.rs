@@ -8,7 +8,7 @@ use std::path::Path;
 use kinetostat_formats::language_of;
 use toml::de::{DeTable, DeValue};
 
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Bytes that are looked at of a large file.
 const LOOKED_AT: u64 = 1 << 20;
@@ -114,16 +114,13 @@ pub(crate) fn refuse_other_kind(path: &Path, bytes: &[u8], needed: FileKind) -> 
             _ => None,
         }
     });
-    Err(Failure::new(
-        ErrorCode::FileForm,
-        format!(
-            "'{}' is {}, and {} is needed here: {}",
-            path.display(),
-            kind.words(),
-            needed.words(),
-            kind.advice(needed, path, named.as_deref())
-        ),
-    ))
+    Err(ErrorCode::FileForm.failure(format!(
+        "'{}' is {}, and {} is needed here: {}",
+        path.display(),
+        kind.words(),
+        needed.words(),
+        kind.advice(needed, path, named.as_deref())
+    )))
 }
 
 /// The beginning of a file, if it can be read.

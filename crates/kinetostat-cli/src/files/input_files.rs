@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use kinetostat_model::{Model, preset_text, read_model};
 
 use crate::files::file_kind::{FileKind, beginning, refuse_other_kind};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Largest program or map that is read, bytes.
 const MOST_BYTES: u64 = 512 << 20;
@@ -75,13 +75,10 @@ impl InputFiles {
         refuse_other_kind(path, &bytes, FileKind::Job)?;
         let text = text_in("job file", path, bytes)?;
         if text.trim().is_empty() {
-            return Err(Failure::new(
-                ErrorCode::JobFile,
-                format!(
-                    "the job file '{}' is empty; start from the one that `kinetostat demo` writes",
-                    path.display()
-                ),
-            ));
+            return Err(ErrorCode::JobFile.failure(format!(
+                "the job file '{}' is empty; start from the one that `kinetostat demo` writes",
+                path.display()
+            )));
         }
         Ok(text)
     }
@@ -117,7 +114,7 @@ pub(crate) fn refuse_beyond_memory(path: &Path, bytes: usize, lines: usize) -> A
         .saturating_add(2 * bytes);
     // The address space is asked for and given back; no page of it is touched.
     Vec::<u8>::new().try_reserve_exact(needed).map_err(|_| {
-        Failure::new(ErrorCode::Memory, format!(
+        ErrorCode::Memory.failure(format!(
             "the program '{}' has {lines} lines ({:.0} MB) and needs about {:.1} GB of memory, more than the system gives; divide it, or raise the limit of memory (ulimit -v)",
             path.display(),
             bytes as f64 * 1e-6,
@@ -134,10 +131,7 @@ fn is_toml(path: &Path) -> bool {
 /// Bytes that are text.
 pub(crate) fn text_in(what: &str, path: &Path, bytes: Vec<u8>) -> Answer<String> {
     let refuse = |message: &str| {
-        Failure::new(
-            ErrorCode::FileNotRead,
-            format!("the {what} '{}' {message}", path.display()),
-        )
+        ErrorCode::FileNotRead.failure(format!("the {what} '{}' {message}", path.display()))
     };
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         return Err(refuse("is written in UTF-16; save it as UTF-8"));
@@ -157,10 +151,7 @@ pub(crate) fn text_in(what: &str, path: &Path, bytes: Vec<u8>) -> Answer<String>
 
 fn read(what: &str, path: &Path, most: u64) -> Answer<Vec<u8>> {
     let refuse = |message: &str| {
-        Failure::new(
-            ErrorCode::FileNotRead,
-            format!("the {what} '{}' {message}", path.display()),
-        )
+        ErrorCode::FileNotRead.failure(format!("the {what} '{}' {message}", path.display()))
     };
     if path.is_dir() {
         return Err(refuse("is a directory; name a file in it"));

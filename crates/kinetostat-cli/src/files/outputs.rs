@@ -12,7 +12,7 @@ use tempfile::NamedTempFile;
 
 use crate::files::journal::{self, Contents, Entry, Journal};
 use crate::files::paths::{is_own_folder, parent_of, same_bytes, same_file, same_place};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::progress::still_wanted;
 use crate::ui::safe_text::safe;
 use crate::ui::system_error::description;
@@ -54,26 +54,20 @@ struct Claimed {
 
 impl Claimed {
     fn refused(&self, error: &std::io::Error) -> Failure {
-        Failure::new(
-            ErrorCode::Output,
-            format!(
-                "the {} cannot be written to '{}': {}; no output was changed",
-                self.what,
-                self.target.display(),
-                description(error)
-            ),
-        )
+        ErrorCode::Output.failure(format!(
+            "the {} cannot be written to '{}': {}; no output was changed",
+            self.what,
+            self.target.display(),
+            description(error)
+        ))
     }
 }
 
 fn refused(what: &str, target: &Path, reason: &str) -> Failure {
-    Failure::new(
-        ErrorCode::Output,
-        format!(
-            "the {what} cannot be written to '{}': {reason}",
-            target.display()
-        ),
-    )
+    ErrorCode::Output.failure(format!(
+        "the {what} cannot be written to '{}': {reason}",
+        target.display()
+    ))
 }
 
 /// Refuses a target that is an input, another output or a link, or whose directory is missing. The policy for
@@ -288,9 +282,7 @@ impl Outputs {
         {
             claimed.identical = same;
             if !same {
-                return Err(Failure::new(
-                    ErrorCode::Output,
-                    format!(
+                return Err(ErrorCode::Output.failure(format!(
                         "'{}' exists already and differs from what would be written; choose another directory with --out, or allow it with --force-overwrite",
                         claimed.target.display()
                     ),
@@ -314,14 +306,11 @@ impl Outputs {
         if entries.len() > 1 {
             for journal in &mut journals {
                 journal.list(&entries).map_err(|error| {
-                    Failure::new(
-                        ErrorCode::Output,
-                        format!(
-                            "nothing can be written to '{}': {}; no output was changed",
-                            journal.directory.display(),
-                            description(&error)
-                        ),
-                    )
+                    ErrorCode::Output.failure(format!(
+                        "nothing can be written to '{}': {}; no output was changed",
+                        journal.directory.display(),
+                        description(&error)
+                    ))
                 })?;
             }
         }
@@ -337,14 +326,11 @@ impl Outputs {
                 Ok(kept) => done.push((target, kept)),
                 Err(error) => {
                     take_back(done);
-                    return Err(Failure::new(
-                        ErrorCode::Output,
-                        format!(
-                            "the {what} cannot be put in place as '{}': {}; no output was changed",
-                            target.display(),
-                            description(&error)
-                        ),
-                    ));
+                    return Err(ErrorCode::Output.failure(format!(
+                        "the {what} cannot be put in place as '{}': {}; no output was changed",
+                        target.display(),
+                        description(&error)
+                    )));
                 }
             }
         }

@@ -11,7 +11,7 @@ use crate::force::answer::{
 use crate::force::cut::{Cut, Part, Way};
 use crate::force::findings::findings;
 use crate::force::tool::CutTool;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use kinetostat_diagnostic::ErrorCode;
 
 /// Angles per tooth at which the force is computed, at least and at most.
@@ -47,10 +47,7 @@ pub(crate) fn answer_of(
     let tool = &of_tool.tool;
     let milling = Milling::new(tool, &applied.law, &cut.engagement, cut.feed).turning(cut.rotation);
     let chip = milling.chip_thickness().ok_or_else(|| {
-        Failure::new(
-            ErrorCode::Value,
-            "nothing is cut: the tool rises faster than it goes ahead",
-        )
+        ErrorCode::Value.failure("nothing is cut: the tool rises faster than it goes ahead")
     })?;
     let revolution = milling.revolution_at(angles_per_tooth(tool, cut));
     let mean = milling.mean();

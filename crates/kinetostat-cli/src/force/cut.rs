@@ -8,7 +8,7 @@ use kinetostat_cutting::{Contact, Engagement, Feed, Rotation, Shape, Side, Spind
 
 use crate::force::arguments::{CutArgs, PartWord, SpindleArgs};
 use crate::force::refusal::{refused, within};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Diameters of the tool: no cut is deeper.
 const DEEPEST: f64 = 50.0;
@@ -78,16 +78,10 @@ pub(crate) struct Straight {
 pub(crate) fn straight(tool: &Tool, args: &CutArgs) -> Answer<Straight> {
     let given = |option: &str, value: Option<f64>, what: &str| -> Answer<f64> {
         let value = value.ok_or_else(|| {
-            Failure::new(
-                ErrorCode::Missing,
-                format!("the cut needs {option}: {what}, in mm"),
-            )
+            ErrorCode::Missing.failure(format!("the cut needs {option}: {what}, in mm"))
         })?;
         match value == 0.0 {
-            true => Err(Failure::new(
-                ErrorCode::Value,
-                format!("{option} 0 cuts nothing; give {what}"),
-            )),
+            true => Err(ErrorCode::Value.failure(format!("{option} 0 cuts nothing; give {what}"))),
             false => Ok(value),
         }
     };
@@ -102,9 +96,7 @@ pub(crate) fn straight(tool: &Tool, args: &CutArgs) -> Answer<Straight> {
         _ => tool.diameter_mm(),
     };
     if width_mm > across_mm * (1.0 + 1e-9) {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!(
+        return Err(ErrorCode::Value.failure(format!(
                 "--width-mm: width of cut of {width_mm} mm; expected at most the {across_mm} mm of the tool, which is a slot"
             ),
         ));
@@ -143,16 +135,13 @@ pub(crate) fn cut_of(tool: &Tool, args: &CutArgs, spindle: &SpindleArgs) -> Answ
         .transpose()?;
     let spindle = curve(spindle)?;
     if spindle.is_some() && rpm.is_none() {
-        return Err(Failure::new(
-            ErrorCode::Missing,
+        return Err(ErrorCode::Missing.failure(
             "what the spindle gives depends on its speed: --spindle-power-w needs --rpm",
         ));
     }
     let feed = feed(tool, args, rpm)?;
     if feed.down_mm != 0.0 && of.part != Part::Slot {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            "--down-feed-per-tooth-mm is for slots: at a side cut it depends on what the floor looks like. Make --width-mm the diameter",
+        return Err(ErrorCode::Unused.failure("--down-feed-per-tooth-mm is for slots: at a side cut it depends on what the floor looks like. Make --width-mm the diameter",
         ));
     }
     let mut engagement = of.engagement;
@@ -191,9 +180,7 @@ fn side(args: &CutArgs, rotation: Rotation) -> Answer<(Part, Way)> {
         (None, true, _) => climb_at,
         (None, false, true) => other,
         (None, false, false) => {
-            return Err(Failure::new(
-                ErrorCode::Missing,
-                "on which side is the part? Give --part left or --part right as seen along the feed, or --climb or --conventional (or make --width-mm the diameter: a slot)",
+            return Err(ErrorCode::Missing.failure("on which side is the part? Give --part left or --part right as seen along the feed, or --climb or --conventional (or make --width-mm the diameter: a slot)",
             ));
         }
     };
@@ -209,25 +196,19 @@ fn feed(tool: &Tool, args: &CutArgs, rpm: Option<f64>) -> Answer<Feed> {
         (Some(per_tooth), _) => per_tooth,
         (None, Some(per_min)) => {
             let rpm = rpm.ok_or_else(|| {
-                Failure::new(ErrorCode::Missing,
-                    "--feed-mm-per-min needs --rpm: how far the tool goes from tooth to tooth depends on both",
+                ErrorCode::Missing.failure("--feed-mm-per-min needs --rpm: how far the tool goes from tooth to tooth depends on both",
                 )
             })?;
             let most = 10.0 * tool.teeth() as f64 * rpm;
             within("feed", per_min, 0.0..=most, "mm/min")? / (tool.teeth() as f64 * rpm)
         }
         (None, None) => {
-            return Err(Failure::new(
-                ErrorCode::Missing,
-                "how fast? Give --feed-per-tooth-mm, or --feed-mm-per-min with --rpm",
-            ));
+            return Err(ErrorCode::Missing
+                .failure("how fast? Give --feed-per-tooth-mm, or --feed-mm-per-min with --rpm"));
         }
     };
     if per_tooth == 0.0 {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            "a feed of 0 cuts nothing; give one above it",
-        ));
+        return Err(ErrorCode::Value.failure("a feed of 0 cuts nothing; give one above it"));
     }
     let down = args.down_feed_per_tooth_mm.unwrap_or(0.0);
     Feed::ramp(per_tooth, down).map_err(|error| refused(&error))

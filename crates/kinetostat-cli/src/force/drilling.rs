@@ -16,7 +16,7 @@ use crate::force::findings::{of_chip, of_feed_per_turn, of_speed};
 use crate::force::material::{Made, applied};
 use crate::force::refusal::{refused, within};
 use crate::force::trust::section;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::layout::{listed, wrapped};
 use crate::ui::numbers::{given, number};
 
@@ -60,10 +60,7 @@ pub(crate) fn run(args: &ForceArgs, material: &Material, files: ClaimedFiles) ->
 fn answer(args: &ForceArgs, material: &Material) -> Answer<DrillAnswer> {
     let of = &args.steady;
     let (Some(diameter_mm), Some(feed)) = (args.tool.diameter_mm, of.feed_per_turn_mm) else {
-        return Err(Failure::new(
-            ErrorCode::Missing,
-            "the drill needs --diameter-mm D, in mm",
-        ));
+        return Err(ErrorCode::Missing.failure("the drill needs --diameter-mm D, in mm"));
     };
     within("feed per turn", feed, 1e-6..=100.0, "mm")?;
     let lips = of.lips.unwrap_or(2);
@@ -80,10 +77,8 @@ fn answer(args: &ForceArgs, material: &Material) -> Answer<DrillAnswer> {
     let speed = rpm.map(|rpm| 1e-3 * PI * diameter_mm * rpm);
     let corrected = match (args.material.correct_speed, speed) {
         (true, None) => {
-            return Err(Failure::new(
-                ErrorCode::Missing,
-                "--correct-speed needs --rpm: the cutting speed follows from it",
-            ));
+            return Err(ErrorCode::Missing
+                .failure("--correct-speed needs --rpm: the cutting speed follows from it"));
         }
         (true, speed) => speed,
         (false, _) => None,

@@ -8,7 +8,7 @@ use kinetostat_cutting::{Applied, Coolant, Correction, CuttingMaterial, Material
 use crate::files::input_files::InputFiles;
 use crate::force::arguments::{CoolantWord, EdgeWord, MaterialArgs};
 use crate::force::refusal::refused;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// The materials of a file and of the library.
 pub(crate) fn materials(files: &InputFiles, own: Option<&Path>) -> Answer<Materials> {
@@ -24,9 +24,7 @@ pub(crate) fn materials(files: &InputFiles, own: Option<&Path>) -> Answer<Materi
 /// The material that was named.
 pub(crate) fn material(materials: &Materials, args: &MaterialArgs) -> Answer<Material> {
     let Some(name) = &args.material else {
-        return Err(Failure::new(
-            ErrorCode::Missing,
-            "what is cut? Give --material NAME; `kinetostat force --list-materials` shows the names",
+        return Err(ErrorCode::Missing.failure("what is cut? Give --material NAME; `kinetostat force --list-materials` shows the names",
         ));
     };
     let found = materials.find(name).map_err(|error| {
@@ -34,7 +32,7 @@ pub(crate) fn material(materials: &Materials, args: &MaterialArgs) -> Answer<Mat
             true => format!("; {}", error.expected),
             false => ";".to_owned(),
         };
-        Failure::new(ErrorCode::UnknownName, format!(
+        ErrorCode::UnknownName.failure(format!(
             "--material: {}{near} `kinetostat force --list-materials` shows them, and --materials FILE.toml takes your own",
             error.found
         ))

@@ -35,7 +35,7 @@ use crate::force::text::milling;
 use crate::force::tool::tool_of;
 use crate::ui::background::interruptible;
 use crate::ui::csv_table::{cell, written};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::given::Given;
 use crate::ui::layout::{listed, wrapped};
 use crate::ui::numbers::{given, number};
@@ -144,9 +144,7 @@ pub(crate) fn run(args: &ForceArgs, given: &Given) -> Answer<()> {
         };
     }
     if args.steady.feed_per_turn_mm.is_some() {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            "--feed-per-turn-mm is the feed of --drill and --turning; a milling cut has --feed-per-tooth-mm, or --feed-mm-per-min with --rpm",
+        return Err(ErrorCode::Unused.failure("--feed-per-turn-mm is the feed of --drill and --turning; a milling cut has --feed-per-tooth-mm, or --feed-mm-per-min with --rpm",
         ));
     }
     let tool = tool_of(&files, &args.tool)?;
@@ -154,10 +152,8 @@ pub(crate) fn run(args: &ForceArgs, given: &Given) -> Answer<()> {
     let cut = cut_of(&tool.tool, &args.cut, &args.spindle)?;
     let speed = match args.material.correct_speed {
         true => Some(cut.speed_m_per_min().ok_or_else(|| {
-            Failure::new(
-                ErrorCode::Missing,
-                "--correct-speed needs --rpm: the cutting speed follows from it",
-            )
+            ErrorCode::Missing
+                .failure("--correct-speed needs --rpm: the cutting speed follows from it")
         })?),
         false => None,
     };

@@ -2,7 +2,7 @@
 
 use kinetostat_cutting::CutError;
 
-use crate::ui::failure::Failure;
+use crate::ui::failure::{Failing, Failure};
 use kinetostat_diagnostic::ErrorCode;
 
 /// Quantities of the library and the options that give them.
@@ -42,18 +42,15 @@ const OPTIONS: [(&str, &str); 30] = [
 /// An error of the library as the command says it: with the option, or with file and line.
 pub(crate) fn refused(error: &CutError) -> Failure {
     if error.file.is_some() {
-        return Failure::new(ErrorCode::Value, error);
+        return ErrorCode::Value.failure(error);
     }
     let option = OPTIONS.iter().find(|(name, _)| *name == error.quantity);
     match option {
-        Some((_, option)) => Failure::new(
-            ErrorCode::Value,
-            format!(
-                "{option}: {} of {}; expected {}",
-                error.quantity, error.found, error.expected
-            ),
-        ),
-        None => Failure::new(ErrorCode::Value, error),
+        Some((_, option)) => ErrorCode::Value.failure(format!(
+            "{option}: {} of {}; expected {}",
+            error.quantity, error.found, error.expected
+        )),
+        None => ErrorCode::Value.failure(error),
     }
 }
 
@@ -69,12 +66,9 @@ pub(crate) fn within(
     }
     let known = OPTIONS.iter().find(|(name, _)| *name == quantity);
     let option = known.map_or(quantity, |(_, option)| option);
-    Err(Failure::new(
-        ErrorCode::Value,
-        format!(
-            "{option}: {quantity} of {value} {unit}; expected {} to {} {unit}",
-            bounds.start(),
-            bounds.end()
-        ),
-    ))
+    Err(ErrorCode::Value.failure(format!(
+        "{option}: {quantity} of {value} {unit}; expected {} to {} {unit}",
+        bounds.start(),
+        bounds.end()
+    )))
 }

@@ -8,7 +8,7 @@ use kinetostat_cutting::{RunOut, Shape, Tool, ToolTable};
 use crate::files::input_files::InputFiles;
 use crate::force::arguments::{ShapeWord, ToolArgs};
 use crate::force::refusal::{refused, within};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// A tool with what is known beside its edges.
 #[derive(Clone, Debug)]
@@ -46,14 +46,11 @@ fn from_table(
     let table = tool_table(files, path)?;
     let numbers = || -> Vec<String> { table.entries().map(|e| e.number.to_string()).collect() };
     if number.is_none() {
-        return Err(Failure::new(
-            ErrorCode::Missing,
-            format!(
-                "--tool-table needs --tool-number T: which of the tools of '{}' cuts? It has {}",
-                path.display(),
-                numbers().join(", ")
-            ),
-        ));
+        return Err(ErrorCode::Missing.failure(format!(
+            "--tool-table needs --tool-number T: which of the tools of '{}' cuts? It has {}",
+            path.display(),
+            numbers().join(", ")
+        )));
     }
     let number = number.and_then(|number| u32::try_from(number).ok());
     let entry = number.and_then(|number| table.entries().find(|e| e.number == number));
@@ -62,13 +59,10 @@ fn from_table(
             none if none.is_empty() => "it has no tools".to_owned(),
             some => format!("it has {}", some.join(", ")),
         };
-        Failure::new(
-            ErrorCode::UnknownName,
-            format!(
-                "--tool-number: that tool is not in the table of tools '{}'; {known}",
-                path.display()
-            ),
-        )
+        ErrorCode::UnknownName.failure(format!(
+            "--tool-number: that tool is not in the table of tools '{}'; {known}",
+            path.display()
+        ))
     })?;
     Ok(CutTool {
         tool: entry.tool,
@@ -84,9 +78,7 @@ fn from_table(
 
 fn by_sizes(args: &ToolArgs) -> Answer<CutTool> {
     let Some(word) = args.tool else {
-        return Err(Failure::new(
-            ErrorCode::Missing,
-            "which tool? Give --tool flat, ball, bull or face with --diameter-mm and --teeth, or --tool-table FILE.toml with --tool-number",
+        return Err(ErrorCode::Missing.failure("which tool? Give --tool flat, ball, bull or face with --diameter-mm and --teeth, or --tool-table FILE.toml with --tool-number",
         ));
     };
     let (Some(diameter_mm), Some(teeth)) = (args.diameter_mm, args.teeth) else {
@@ -94,10 +86,7 @@ fn by_sizes(args: &ToolArgs) -> Answer<CutTool> {
             None => "--diameter-mm D, in mm",
             Some(_) => "--teeth N",
         };
-        return Err(Failure::new(
-            ErrorCode::Missing,
-            format!("the tool needs {missing}"),
-        ));
+        return Err(ErrorCode::Missing.failure(format!("the tool needs {missing}")));
     };
     let tool = Tool::new(shape(word, args)?, diameter_mm, teeth)
         .and_then(|tool| tool.with_helix(args.helix_deg.unwrap_or(0.0).to_radians()))
@@ -140,16 +129,12 @@ fn shape(word: ShapeWord, args: &ToolArgs) -> Answer<Shape> {
         match (given, word == of) {
             (Some(value), true) => Ok(value),
             (None, false) => Ok(0.0),
-            (None, true) => Err(Failure::new(
-                ErrorCode::Missing,
-                format!("--tool {name} needs {option}"),
-            )),
-            (Some(_), false) => Err(Failure::new(
-                ErrorCode::Unused,
-                format!(
-                    "{option} belongs to --tool {name} alone; leave it out, or change the shape"
-                ),
-            )),
+            (None, true) => {
+                Err(ErrorCode::Missing.failure(format!("--tool {name} needs {option}")))
+            }
+            (Some(_), false) => Err(ErrorCode::Unused.failure(format!(
+                "{option} belongs to --tool {name} alone; leave it out, or change the shape"
+            ))),
         }
     };
     let corner = only(

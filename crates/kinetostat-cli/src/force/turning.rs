@@ -14,7 +14,7 @@ use crate::force::findings::{of_chip, of_speed, of_turning};
 use crate::force::material::{Made, applied};
 use crate::force::refusal::{refused, within};
 use crate::force::trust::section;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::layout::{listed, wrapped};
 use crate::ui::numbers::{given, number};
 
@@ -55,10 +55,7 @@ pub(crate) fn run(args: &ForceArgs, material: &Material, files: ClaimedFiles) ->
 fn answer(args: &ForceArgs, material: &Material) -> Answer<TurningAnswer> {
     let of = &args.steady;
     let (Some(depth_mm), Some(feed)) = (args.cut.depth_mm, of.feed_per_turn_mm) else {
-        return Err(Failure::new(
-            ErrorCode::Missing,
-            "the cut needs --depth-mm AP, in mm",
-        ));
+        return Err(ErrorCode::Missing.failure("the cut needs --depth-mm AP, in mm"));
     };
     within("feed per turn", feed, 1e-6..=100.0, "mm")?;
     let approach_angle_deg = of.approach_angle_deg.unwrap_or(90.0);
@@ -66,19 +63,13 @@ fn answer(args: &ForceArgs, material: &Material) -> Answer<TurningAnswer> {
         .map_err(|error| refused(&error))?;
     let speed = of.speed_m_per_min;
     if let Some(speed) = speed.filter(|speed| !(1e-3..=1e5).contains(speed)) {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!(
-                "--speed-m-per-min: cutting speed of {speed} m/min; expected 0.001 to 100000 m/min"
-            ),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "--speed-m-per-min: cutting speed of {speed} m/min; expected 0.001 to 100000 m/min"
+        )));
     }
     let corrected = match (args.material.correct_speed, speed) {
         (true, None) => {
-            return Err(Failure::new(
-                ErrorCode::Missing,
-                "--correct-speed needs --speed-m-per-min",
-            ));
+            return Err(ErrorCode::Missing.failure("--correct-speed needs --speed-m-per-min"));
         }
         (true, speed) => speed,
         (false, _) => None,

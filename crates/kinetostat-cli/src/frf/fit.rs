@@ -11,7 +11,7 @@ use crate::frf::arguments::FrfArgs;
 use crate::frf::measured::of_measurement;
 use crate::frf::scaling::{ScaledAnswer, scaled};
 use crate::place::query::PlaceQuery;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::vibration::subject;
 
 /// Modes that were measured.
@@ -76,10 +76,9 @@ pub(crate) fn answer(
         )
     });
     if let (Some(words), false) = (&against, args.scale.is_empty()) {
-        return Err(Failure::new(
-            ErrorCode::FileForm,
-            format!("--scale: {words}. Turn it round, and measure again if you do not know which"),
-        ));
+        return Err(ErrorCode::FileForm.failure(format!(
+            "--scale: {words}. Turn it round, and measure again if you do not know which"
+        )));
     }
     let beside = |(i, mode): (usize, &kinetostat_chatter::FittedMode)| {
         let at = pairs.iter().position(|pair| pair.measured == i);
@@ -102,9 +101,7 @@ pub(crate) fn answer(
         all.iter().find(|mode| mode.model_mode.is_none()),
         args.scale.is_empty(),
     ) {
-        return Err(Failure::new(
-            ErrorCode::NoMatch,
-            format!(
+        return Err(ErrorCode::NoMatch.failure(format!(
                 "--scale: the measured mode at {:.2} Hz resembles none of the model's (within a factor of 1.5 of its frequency): nothing is scaled to it. Look at `kinetostat modes`, or ask for fewer modes or a narrower band",
                 lone.frequency_hz
             ),

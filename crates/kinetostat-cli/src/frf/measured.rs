@@ -10,7 +10,7 @@ use kinetostat_machining::{Warning, WarningCode};
 
 use crate::files::csv_text::with_decimal_points;
 use crate::files::input_files::InputFiles;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 
 /// Measured responses, and the rest of the file.
 #[derive(Default)]
@@ -29,7 +29,7 @@ pub(crate) fn read(files: &InputFiles, path: &Path) -> Answer<Measured> {
         true => read_universal(&text).map(|file| file.responses),
         false => read_columns(&with_decimal_points(&text)),
     };
-    let failed = |error| Failure::new(ErrorCode::FileForm, format!("{}: {error}", path.display()));
+    let failed = |error| ErrorCode::FileForm.failure(format!("{}: {error}", path.display()));
     Ok(Measured {
         responses: found.map_err(failed)?,
         turning: match universal {
@@ -81,5 +81,5 @@ pub(crate) fn warnings(file: &Measured) -> Vec<Warning> {
 
 /// Converts an error of a measurement.
 pub(crate) fn of_measurement(error: ChatterError) -> Failure {
-    Failure::new(ErrorCode::FileForm, format!("measured responses: {error}"))
+    ErrorCode::FileForm.failure(format!("measured responses: {error}"))
 }

@@ -19,7 +19,7 @@ use crate::files::answer_files::{ClaimedFiles, Shown};
 use crate::files::input_files::InputFiles;
 use crate::frf::answer::{FrfAnswer, curves};
 use crate::frf::arguments::{FrfArgs, QuantityWord};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::number;
 use crate::ui::result_form::ResultForm;
 use crate::vibration::damping::words;
@@ -62,18 +62,14 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
     let receptance = response.over(&frequencies).map_err(subject::refused)?;
     let finite = |m: &Receptance| m.iter().all(|v| v.re.is_finite() && v.im.is_finite());
     if let Some(at) = receptance.iter().position(|m| !finite(m)) {
-        return Err(Failure::new(
-            ErrorCode::FreeDirection,
-            format!(
+        return Err(ErrorCode::FreeDirection.failure(format!(
                 "the tool has no finite response at {} Hz: a direction is free there, or a mode without damping",
                 frequencies[at]
             ),
         ));
     }
     if args.outputs.plot.is_some() && !text::moves(&entries, &receptance) {
-        return Err(Failure::new(
-            ErrorCode::RigidDirection,
-            "--plot: the tool moves along none of these axes (it is held, or the machine cannot move it there), and there is nothing to draw",
+        return Err(ErrorCode::RigidDirection.failure("--plot: the tool moves along none of these axes (it is held, or the machine cannot move it there), and there is nothing to draw",
         ));
     }
     let asked: Vec<Receptance> = (receptance.iter().zip(&frequencies))
@@ -188,15 +184,12 @@ pub(crate) fn makes_sense(
 ) -> Answer<()> {
     let is_drawn = args.outputs.plot.is_some();
     if let ([one], true) = (frequencies, is_drawn || args.fit.is_some()) {
-        return Err(Failure::new(
-            ErrorCode::Conflict,
-            format!("--frequencies names one frequency, {one} Hz; --plot and --fit need a band"),
-        ));
+        return Err(ErrorCode::Conflict.failure(format!(
+            "--frequencies names one frequency, {one} Hz; --plot and --fit need a band"
+        )));
     }
     if is_drawn && !entries.iter().any(|(to, from)| *to < 3 && *from < 3) {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            "--plot draws motions along axes by forces along axes; there is none among --to and --from",
+        return Err(ErrorCode::Unused.failure("--plot draws motions along axes by forces along axes; there is none among --to and --from",
         ));
     }
     Ok(())
@@ -205,26 +198,19 @@ pub(crate) fn makes_sense(
 /// Evenly spaced frequencies, Hz.
 pub(crate) fn frequencies(of: &[f64]) -> Answer<Vec<f64>> {
     let &[low, high, count] = of else {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            "--frequencies needs LO HI N",
-        ));
+        return Err(ErrorCode::Value.failure("--frequencies needs LO HI N"));
     };
     if count == 1.0 && low == high && low >= 0.0 && low.is_finite() {
         return Ok(vec![low]);
     }
     if !(low >= 0.0 && high > low && high.is_finite()) {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!(
+        return Err(ErrorCode::Value.failure(format!(
                 "--frequencies {low} {high}: frequencies in Hz are needed, the first not below 0 and the second above the first"
             ),
         ));
     }
     if !(2.0..=MOST).contains(&count) || count.fract() != 0.0 {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!(
+        return Err(ErrorCode::Value.failure(format!(
                 "--frequencies: N is {count}; a whole number from 2 to {MOST} is needed, or 1 with the same frequency twice"
             ),
         ));

@@ -16,7 +16,7 @@ use crate::files::input_files::InputFiles;
 use crate::frf::arguments::FrfArgs;
 use crate::frf::measured::of_measurement;
 use crate::place::query::PlaceQuery;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::vibration::damping_numbers::{DampingNumber, is_of_damping, named, with};
 use crate::vibration::subject;
 
@@ -74,9 +74,7 @@ pub(crate) fn scaled(
     let parameters = within_bounds(&before, args.scale_within)?;
     let left = measured.fit.misfit.iter().copied().fold(0.0, larger);
     if left.is_nan() || left > NO_MODES {
-        return Err(Failure::new(
-            ErrorCode::NoMatch,
-            format!(
+        return Err(ErrorCode::NoMatch.failure(format!(
                 "--scale: the fit leaves {:.0} % of a measured curve: these are no modes that a model could be scaled to. Ask for more modes or a narrower band, or measure again",
                 100.0 * left
             ),
@@ -134,28 +132,21 @@ pub(crate) fn scaled(
 fn check_options(args: &FrfArgs) -> Answer<()> {
     let within = args.scale_within;
     if !(within > 1.0 && within <= 1e3) {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!("--scale-within is {within}; a factor above 1 and of at most 1000 is needed"),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "--scale-within is {within}; a factor above 1 and of at most 1000 is needed"
+        )));
     }
     let known = args.frequencies_known_to;
     if !(known > 0.0 && known < 1.0) {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!(
-                "--frequencies-known-to is {known}; a share between 0 and 1 is needed (0.01 is 1 %)"
-            ),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "--frequencies-known-to is {known}; a share between 0 and 1 is needed (0.01 is 1 %)"
+        )));
     }
     let damping_known = args.damping_known_to;
     if !(damping_known > 0.0 && damping_known < 1.0) {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!(
-                "--damping-known-to is {damping_known}; a share between 0 and 1 is needed (0.2 is 20 %)"
-            ),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "--damping-known-to is {damping_known}; a share between 0 and 1 is needed (0.2 is 20 %)"
+        )));
     }
     Ok(())
 }
@@ -164,13 +155,10 @@ fn check_options(args: &FrfArgs) -> Answer<()> {
 fn within_bounds(before: &[DampingNumber], within: f64) -> Answer<Vec<Parameter>> {
     let bounded = |own: &DampingNumber| {
         if own.value <= 0.0 || own.value.is_nan() {
-            return Err(Failure::new(
-                ErrorCode::Value,
-                format!(
-                    "--scale {}: it is {}, and numbers above zero are scaled",
-                    own.path, own.value
-                ),
-            ));
+            return Err(ErrorCode::Value.failure(format!(
+                "--scale {}: it is {}, and numbers above zero are scaled",
+                own.path, own.value
+            )));
         }
         Ok(Parameter {
             name: own.path.clone(),

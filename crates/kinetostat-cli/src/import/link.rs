@@ -14,14 +14,14 @@ use serde::Serialize;
 
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::import::link_arguments::TableArgs;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::layout::{item, listed, wrapped};
 use crate::ui::screen::{self, Stream};
 use crate::ui::{json, numbers};
 
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
-        Self::new(ErrorCode::FileForm, error)
+        ErrorCode::FileForm.failure(error)
     }
 }
 
@@ -145,15 +145,12 @@ fn refuse_what_is_none(file: &Path, checked: &StiffnessCheck) -> Answer<()> {
         .then(|| checked.findings.iter().find(|f| f.message.contains("rank")))
         .flatten();
     match refused.or(loose) {
-        Some(finding) => Err(Failure::new(
-            ErrorCode::FileForm,
-            format!(
-                "{}: this is no stiffness that a link can have: {}; {}",
-                file.display(),
-                finding.message,
-                finding.help
-            ),
-        )),
+        Some(finding) => Err(ErrorCode::FileForm.failure(format!(
+            "{}: this is no stiffness that a link can have: {}; {}",
+            file.display(),
+            finding.message,
+            finding.help
+        ))),
         None => Ok(()),
     }
 }

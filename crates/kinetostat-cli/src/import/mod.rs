@@ -24,7 +24,7 @@ use crate::import::link::{Remarks, file_name, finish};
 use crate::import::link_arguments::{DisplacementsArgs, MatrixArgs};
 use crate::import::mesh::{axes, metres, needed_units, units};
 use crate::import::urdf::urdf;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::result_form::ResultForm;
 
 /// Results that the command gives as JSON.
@@ -69,7 +69,7 @@ fn displacements(args: &DisplacementsArgs) -> Answer<()> {
             found.insignificant.len()
         ));
         found.filtered().ok_or_else(|| {
-            Failure::new(ErrorCode::Unused, format!(
+            ErrorCode::Unused.failure(format!(
                 "{}: without the entries that the noise hides the compliance is not positive definite; leave --filter out",
                 text.name()
             ))
@@ -203,9 +203,7 @@ fn matrix(args: &MatrixArgs) -> Answer<()> {
 fn plain(args: &MatrixArgs, remarks: &mut Remarks) -> Answer<(Matrix6<f64>, String)> {
     let text = text_or_table(&args.file)?;
     if args.mesh.x_axis.is_some() || args.mesh.y_axis.is_some() || args.mesh.nodes.is_some() {
-        return Err(Failure::new(
-            ErrorCode::Missing,
-            "--nodes, --x-axis and --y-axis belong to a matrix of a mesh: say --interface too; a 6 x 6 has the lines reference_point_mm, x_axis and y_axis",
+        return Err(ErrorCode::Missing.failure("--nodes, --x-axis and --y-axis belong to a matrix of a mesh: say --interface too; a 6 x 6 has the lines reference_point_mm, x_axis and y_axis",
         ));
     }
     let read = match read_matrix(&text, units(&args.mesh)?) {
@@ -217,9 +215,7 @@ fn plain(args: &MatrixArgs, remarks: &mut Remarks) -> Answer<(Matrix6<f64>, Stri
                 .is_none()
                 .then(|| read_superelement(&text, None, None));
             if let Some(Ok(element)) = many {
-                return Err(Failure::new(
-                    ErrorCode::Missing,
-                    format!(
+                return Err(ErrorCode::Missing.failure(format!(
                         "{}: this is a matrix of {} degrees of freedom ({}); say --interface NODES, --fixed NODES and --units to condense it",
                         text.name(),
                         element.dofs.len(),
@@ -289,9 +285,7 @@ fn reduced(
     };
     let share = element.antisymmetric_share;
     if share > SYMMETRIC_TO && !args.symmetrise {
-        return Err(Failure::new(
-            ErrorCode::FileForm,
-            format!(
+        return Err(ErrorCode::FileForm.failure(format!(
                 "{}: the matrix is not symmetric, its anti-symmetric share is {}; a body's stiffness is: if this is noise, say --symmetrise",
                 text.name(),
                 formatter::short(share)
@@ -301,9 +295,7 @@ fn reduced(
     symmetry(share, args.symmetrise, remarks);
     let free = free_test(&element, &nodes, units);
     if request.fixed.is_empty() && free.is_free() && free.resistance.iter().any(Option::is_some) {
-        return Err(Failure::new(
-            ErrorCode::Missing,
-            format!(
+        return Err(ErrorCode::Missing.failure(format!(
                 "{}: the body is free: rigid motions meet no resistance, so its end has no stiffness; say which nodes are held at the other end: --fixed NODES",
                 text.name()
             ),

@@ -14,7 +14,7 @@ use serde::Serialize;
 use crate::files::csv_text::with_decimal_points;
 use crate::files::outputs::{Existing, Outputs};
 use crate::import::arguments::UrdfArgs;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::json;
 use crate::ui::layout::{item, listed, wrapped};
 use crate::ui::screen::{self, Stream};
@@ -143,9 +143,7 @@ fn options(args: &UrdfArgs, inputs: &mut Vec<std::path::PathBuf>) -> Answer<Urdf
 /// `joint_5=30deg`, `rail=1200mm`: an angle in rad or a distance in m.
 fn home_of(written: &str) -> Answer<(String, (MotionKind, f64))> {
     let wrong = || {
-        Failure::new(
-            ErrorCode::Value,
-            format!(
+        ErrorCode::Value.failure(format!(
                 "--home: '{written}' is not JOINT=VALUE with a unit; write joint_5=30deg, joint_5=0.5rad, rail=1200mm or rail=1.2m"
             ),
         )

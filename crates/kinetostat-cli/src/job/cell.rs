@@ -15,7 +15,7 @@ use crate::job::robot::frames::in_metres;
 use crate::job::template_file::TemplateFile;
 use crate::job::tool_mass::ToolMass;
 use crate::job::tools::tip_words;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::numbers::short;
 
 /// Differences below this are those of digits, m and rad.
@@ -163,9 +163,7 @@ fn apart(a: &Pose, b: &Pose) -> bool {
 }
 
 fn twice(of_template: &str, of_job: &str) -> Failure {
-    Failure::new(
-        ErrorCode::Conflict,
-        format!(
+    ErrorCode::Conflict.failure(format!(
             "stated twice, and not the same: {of_template} in the template and {of_job} of the job; leave one of them out"
         ),
     )

@@ -8,7 +8,7 @@ use kinetostat_formats::FileForm;
 
 use crate::job::output_paths::{COMPENSATED_PROGRAM, FLAT_PROGRAM};
 use crate::job::setting::Setting;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// A program that is written: what it is called in sentences, what it holds, and the file whose ending it may have in any case.
 #[derive(Clone, Copy, Debug)]
@@ -29,17 +29,14 @@ pub(crate) fn refuse_other_ending(written: Written<'_>, out: &Path) -> Answer<()
         return Ok(());
     }
     let fitting = own.map_or_else(|| form.ending().to_owned(), lower);
-    Err(Failure::new(
-        ErrorCode::Output,
-        format!(
-            "'{}': .{} is the ending of another language, and the {} is {}: name it '{}'",
-            out.display(),
-            ending.unwrap_or_default().to_string_lossy(),
-            written.what,
-            form.title(),
-            out.with_extension(fitting).display()
-        ),
-    ))
+    Err(ErrorCode::Output.failure(format!(
+        "'{}': .{} is the ending of another language, and the {} is {}: name it '{}'",
+        out.display(),
+        ending.unwrap_or_default().to_string_lossy(),
+        written.what,
+        form.title(),
+        out.with_extension(fitting).display()
+    )))
 }
 
 /// Refuses such names of the programs that a run writes.

@@ -10,7 +10,7 @@ use kinetostat_program::Path as ToolPath;
 
 use crate::job::setting::Setting;
 use crate::job::turn_arguments::FreeTurnWord;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::layout::item;
 use crate::ui::numbers::number;
 
@@ -56,7 +56,7 @@ pub(crate) fn only_tool(setting: &Setting, path: &ToolPath) -> Answer<Option<u32
     match used.as_slice() {
         [] => Ok(None),
         [(only, _)] => Ok(Some(*only)),
-        [(first, _), (second, line), ..] => Err(setting.within(Failure::new(ErrorCode::ProgramUnsuited, format!(
+        [(first, _), (second, line), ..] => Err(setting.within(ErrorCode::ProgramUnsuited.failure(format!(
             "line {line}: the tool {second} moves here, and the tool {first} before: --free-turn (free_turn under [robot]) is for programs of one tool. Divide the program where the tool changes and run each part by itself ([[tools]] of job and template may stay), or leave the free turn out"
         )))),
     }
@@ -70,8 +70,7 @@ pub(crate) fn chosen(
     placement: Placement,
 ) -> Answer<FreeTurn> {
     if path.moves.iter().any(|motion| motion.tool_turn.is_some()) {
-        return Err(setting.within(Failure::new(ErrorCode::ProgramUnsuited,
-            "--free-turn is for programs of positions, and this one states the orientation of its tool: leave it out",
+        return Err(setting.within(ErrorCode::ProgramUnsuited.failure("--free-turn is for programs of positions, and this one states the orientation of its tool: leave it out",
         )));
     }
     let mut task = TurnTask::new(mechanism, path, placement);
@@ -110,7 +109,7 @@ fn softest(choice: &TurnChoice) -> String {
 /// A path without a way is a finding of the machine, not a fault of the question.
 fn refused(setting: &Setting, error: &TurnError) -> Failure {
     setting.within(match error {
-        TurnError::NoWay(_) | TurnError::Point { .. } => Failure::new(ErrorCode::NoAnswer, error),
-        _ => Failure::new(ErrorCode::ProgramUnsuited, error),
+        TurnError::NoWay(_) | TurnError::Point { .. } => ErrorCode::NoAnswer.failure(error),
+        _ => ErrorCode::ProgramUnsuited.failure(error),
     })
 }

@@ -10,7 +10,7 @@ use crate::files::input_files::InputFiles;
 use crate::job::format::Job;
 use crate::job::source::Source;
 use crate::job::target_word::RobotWord;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 
 /// A job file that has been read: its text is kept for messages.
 #[derive(Clone, Debug)]
@@ -93,7 +93,7 @@ pub(crate) fn model_named(
             named.get_ref().clone(),
             job.map(JobFile::base).unwrap_or_default(),
         )),
-        (None, None) => Err(Failure::new(ErrorCode::Missing, match job {
+        (None, None) => Err(ErrorCode::Missing.failure(match job {
             Some(j) => format!(
                 "the job file '{}' names no model; write  model = \"orthoglide\"  at its top, or give --model MODEL",
                 j.path.display()

@@ -4,7 +4,7 @@ use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{Limit, Limits};
 
 use crate::job::job_file::JobFile;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// The limits of the job file, and over them those of the options.
 pub(crate) fn limits(job: Option<&JobFile>, options: &[String]) -> Answer<Limits> {
@@ -16,21 +16,15 @@ pub(crate) fn limits(job: Option<&JobFile>, options: &[String]) -> Answer<Limits
     for text in options {
         let (limit, value) = of_option(text)?;
         if given.contains(&limit) {
-            return Err(Failure::new(
-                ErrorCode::Conflict,
-                format!(
-                    "--limit '{text}': {} is given twice; keep one of the two",
-                    limit.name
-                ),
-            ));
+            return Err(ErrorCode::Conflict.failure(format!(
+                "--limit '{text}': {} is given twice; keep one of the two",
+                limit.name
+            )));
         }
         given.push(limit);
         limits.set(limit, value);
         if let Some(what) = no_tool(&limits) {
-            return Err(Failure::new(
-                ErrorCode::Value,
-                format!("--limit '{text}': {what}"),
-            ));
+            return Err(ErrorCode::Value.failure(format!("--limit '{text}': {what}")));
         }
     }
     Ok(limits)
@@ -44,13 +38,10 @@ pub(crate) fn refuse_limits_but(used: &[&str], options: &[String], why: &str) ->
     for text in options {
         let (limit, _) = of_option(text)?;
         if !used.contains(&limit.name) {
-            return Err(Failure::new(
-                ErrorCode::Unused,
-                format!(
-                    "--limit '{text}' means nothing here, because {why}; leave it out. There are: {}",
-                    used.join(", ")
-                ),
-            ));
+            return Err(ErrorCode::Unused.failure(format!(
+                "--limit '{text}' means nothing here, because {why}; leave it out. There are: {}",
+                used.join(", ")
+            )));
         }
     }
     Ok(())
@@ -80,8 +71,7 @@ fn of_job(job: &JobFile, limits: &mut Limits) -> Answer<()> {
 }
 
 fn of_option(text: &str) -> Answer<(Limit, f64)> {
-    let refuse =
-        |reason: &str| Failure::new(ErrorCode::Value, format!("--limit '{text}': {reason}"));
+    let refuse = |reason: &str| ErrorCode::Value.failure(format!("--limit '{text}': {reason}"));
     let unread = |reason: &str| {
         refuse(&format!(
             "{reason}; write NAME=VALUE, as in correction_mm=5. There are: {}",

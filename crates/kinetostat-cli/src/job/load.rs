@@ -9,7 +9,7 @@ use crate::job::arguments::ProgramArgs;
 use crate::job::format::{Axes, CornerWord, LoadTable};
 use crate::job::job_file::JobFile;
 use crate::options::{finite, vector};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 pub(crate) fn load(
     job: Option<&JobFile>,
@@ -40,9 +40,7 @@ pub(crate) fn load(
         || table.force_n.is_some()
         || table.moment_n_m.is_some();
     if flags.load_axes.is_some() && !has_force {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            "--load-axes are the axes of a force or moment, and the load has none: add --force or --moment, or leave it out",
+        return Err(ErrorCode::Unused.failure("--load-axes are the axes of a force or moment, and the load has none: add --force or --moment, or leave it out",
         ));
     }
     let cutting = if let Some(v) = &flags.milling {
@@ -141,9 +139,7 @@ fn possible(cutting: CuttingLoad) -> Answer<()> {
         .into_iter()
         .find(|part| !(-LARGEST..=LARGEST).contains(part))
     {
-        Some(part) => Err(Failure::new(
-            ErrorCode::Value,
-            format!(
+        Some(part) => Err(ErrorCode::Value.failure(format!(
                 "a part of the load on the tool is {part:e} N or N m; no more than {LARGEST:e} is possible: write the force in N and the moment in N m"
             ),
         )),

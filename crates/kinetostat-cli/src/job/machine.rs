@@ -32,7 +32,7 @@ use crate::job::tools::{numbered_tools, tool};
 use crate::machine::model_warnings::deviation_descriptions;
 use crate::machine::stiffness_list;
 use crate::place::orientation;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::short;
 
 /// The machine with its tool, where the program lies, and what acts.
@@ -158,9 +158,7 @@ pub(crate) fn machine_setup(
     let load = load(job, job.map(|j| &j.job.load), flags)?;
     let weight = weight(job, flags)?;
     if frames.is_some_and(|f| f.axis_is_open && f.states_orientation) && load.turns() {
-        return Err(Failure::new(
-            ErrorCode::Missing,
-            "this load turns with feed and tool, and the program does not say along which axis of its frame the tool lies: at KUKA that is x in some cells and z in others. State it, from the tip to the holder: --tool-axis -x or -z, or tool_axis under [robot]",
+        return Err(ErrorCode::Missing.failure("this load turns with feed and tool, and the program does not say along which axis of its frame the tool lies: at KUKA that is x in some cells and z in others. State it, from the tip to the holder: --tool-axis -x or -z, or tool_axis under [robot]",
         ));
     }
     let measured = measured_setup(files, job, flags, &placement)?;
@@ -306,7 +304,7 @@ fn weight(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<WeightCorrection
     let touch_off = |places: Vec<[f64; 3]>| {
         TouchOff::at(places).map_err(|error| match (job, places_in_job, &flags.touch_off) {
             (Some(j), Some(at), None) => j.error(at, &error.to_string(), help),
-            _ => Failure::new(ErrorCode::ProgramUnsuited, format!("{error}; {help}")),
+            _ => ErrorCode::ProgramUnsuited.failure(format!("{error}; {help}")),
         })
     };
     let places = match (&flags.touch_off, places_in_job) {
@@ -323,9 +321,7 @@ fn weight(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<WeightCorrection
             let touched = touch_off(places.unwrap_or_default())?;
             Ok(WeightCorrection::TouchOff(touched))
         }
-        _ if places.is_some() && !goes_over => Err(Failure::new(
-            ErrorCode::Conflict,
-            "places where the part was touched off are given (touch_off_mm under [load], --touch-off), and weight is not \"touch-off\"; write weight = \"touch-off\" under [load] or --weight touch-off, or leave the places out",
+        _ if places.is_some() && !goes_over => Err(ErrorCode::Conflict.failure("places where the part was touched off are given (touch_off_mm under [load], --touch-off), and weight is not \"touch-off\"; write weight = \"touch-off\" under [load] or --weight touch-off, or leave the places out",
         )),
         Some(WeightWord::All) => Ok(WeightCorrection::All),
         Some(WeightWord::None) => Ok(WeightCorrection::None),

@@ -11,7 +11,7 @@ use crate::files::paths::{COMPENSATED, FLAT, inside, is_own_folder, parent_of};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::format::Job;
 use crate::job::job_file::JobFile;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::language::LanguageWord;
 
 /// Output name of the compensated program.
@@ -173,14 +173,11 @@ pub(crate) fn output_paths(
 /// Refuses options of outputs that are not asked for.
 pub(crate) fn refuse_unused(flags: &ProgramArgs, targets: &OutputPaths) -> Answer<()> {
     if flags.language.is_some() && targets.report.is_none() && targets.pdf.is_none() {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            "--language is the language of the reports, and none is asked for: add --report FILE or --pdf FILE",
+        return Err(ErrorCode::Unused.failure("--language is the language of the reports, and none is asked for: add --report FILE or --pdf FILE",
         ));
     }
     match flags.all_points && targets.points.is_none() {
-        true => Err(Failure::new(
-            ErrorCode::Unused,
+        true => Err(ErrorCode::Unused.failure(
             "--all-points is about the table of points, and none is asked for: add --points FILE",
         )),
         false => Ok(()),
@@ -200,9 +197,7 @@ fn keeps_name(program: &Path, bytes: &[u8]) -> bool {
 pub(crate) fn in_folder(near: &Path, program: &Path, folder: &str) -> Answer<PathBuf> {
     let folder = near.with_file_name(folder);
     if folder.is_symlink() {
-        return Err(Failure::new(
-            ErrorCode::Output,
-            format!(
+        return Err(ErrorCode::Output.failure(format!(
                 "'{}' is a symbolic link, and outputs do not follow links; name the output (--out), or remove the link",
                 folder.display()
             ),

@@ -7,7 +7,7 @@ use kinetostat_program::Path as ToolPath;
 use nalgebra::UnitQuaternion;
 
 use crate::job::machine::MachineSetup;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::{short, triple};
 
 /// Share of the tool's length by which its holder may lie below its tip.
@@ -24,9 +24,7 @@ pub(crate) fn over_part(turn: UnitQuaternion<f64>, tools: &[Pose]) -> Answer<Opt
         let to_holder = turn * (tool.inverse().translation.vector);
         let at = triple((1e3 * to_holder).into(), short);
         if to_holder.z < -LEVEL * to_holder.norm() {
-            return Err(Failure::new(
-                ErrorCode::Value,
-                format!(
+            return Err(ErrorCode::Value.failure(format!(
                     "the tool points up: its flange lies at {at} mm from its tip, axes of the part, and parts are cut from above (z above 0). Correct tool_orientation, as in a_b_c_kuka_deg=0,0,180, or the sign of the tool's pose"
                 ),
             ));

@@ -13,7 +13,7 @@ use crate::job::values::{chosen, scale_of_program};
 use crate::options::vector;
 use crate::place::orientation;
 use crate::place::query::FARTHEST;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::{short, triple};
 
 pub(crate) fn placement(
@@ -82,10 +82,9 @@ fn origin_mm(
     let far = |x: f64| format!("{x:?} mm leads more than 10 km away; coordinates are in mm");
     if let Some(given) = &flags.part_origin_mm {
         return match too_far(given) {
-            Some(x) if x.is_finite() => Err(Failure::new(
-                ErrorCode::Value,
-                format!("--part-origin-mm: {}", far(x)),
-            )),
+            Some(x) if x.is_finite() => {
+                Err(ErrorCode::Value.failure(format!("--part-origin-mm: {}", far(x))))
+            }
             _ => vector("--part-origin-mm", given),
         };
     }

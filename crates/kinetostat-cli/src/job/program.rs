@@ -12,7 +12,7 @@ use kinetostat_program::{
 use crate::job::expansion::advice::advice;
 use crate::job::robot::read_program::{RobotRead, read_robot};
 use crate::job::setting::Setting;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::fault_list::{Fault, fault_list_text};
 
 /// A program that was read, with its path.
@@ -163,10 +163,7 @@ pub(crate) fn read_program(setting: &Setting) -> Answer<ReadProgram<'_>> {
             Some(_) => None,
             None => advice(bytes, path, &setting.reading, &all),
         };
-        let failure = Failure::new(
-            ErrorCode::ProgramRefused,
-            first.unwrap_or_default() + &message,
-        );
+        let failure = ErrorCode::ProgramRefused.failure(first.unwrap_or_default() + &message);
         let each = if all.is_empty() {
             slice::from_ref(&error)
         } else {
@@ -182,9 +179,7 @@ pub(crate) fn read_program(setting: &Setting) -> Answer<ReadProgram<'_>> {
     }
     let states_none = path.moves.iter().all(|motion| motion.tool_turn.is_none());
     if setting.correct.directions() == Directions::ALL && states_none {
-        return Err(Failure::new(
-            ErrorCode::ProgramUnsuited,
-            "the program does not state how its tool stands (no rotary axis of the model turns with tool centre point control), so that its orientation cannot be corrected: leave out --correct pose (correct = \"pose\" under [robot])",
+        return Err(ErrorCode::ProgramUnsuited.failure("the program does not state how its tool stands (no rotary axis of the model turns with tool centre point control), so that its orientation cannot be corrected: leave out --correct pose (correct = \"pose\" under [robot])",
         ));
     }
     Ok(ReadProgram::Gcode(Box::new(GcodeRead {

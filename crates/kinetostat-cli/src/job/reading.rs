@@ -10,7 +10,7 @@ use crate::job::job_file::JobFile;
 use crate::job::units_word::UnitsWord;
 use crate::job::values::{arc_tolerance, chosen};
 use crate::options::vector;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 pub(crate) fn reading(job: Option<&JobFile>, flags: &ReadingArgs) -> Answer<ReadOptions> {
     let table = job.map(|j| j.job.reading.clone()).unwrap_or_default();
@@ -58,8 +58,7 @@ pub(crate) fn reading(job: Option<&JobFile>, flags: &ReadingArgs) -> Answer<Read
     let left_out = job.is_some_and(|j| j.lacks("machine_zero_mm"));
     let no_zero = reading.machine_zero_mm.is_none() && !left_out;
     if no_zero && reading.reference_points_mm != [None; 2] {
-        return Err(Failure::new(ErrorCode::Missing,
-            "a reference point (g28_mm, g30_mm) counts from the machine's zero, and where that lies in the part is not stated: give it as machine_zero_mm under [reading] in the job file, or --machine-zero-mm".to_owned(),
+        return Err(ErrorCode::Missing.failure("a reference point (g28_mm, g30_mm) counts from the machine's zero, and where that lies in the part is not stated: give it as machine_zero_mm under [reading] in the job file, or --machine-zero-mm".to_owned(),
         ));
     }
     if let (Some(j), Some(offsets)) = (job, &table.work_offset_mm) {
@@ -83,9 +82,7 @@ pub(crate) fn reading(job: Option<&JobFile>, flags: &ReadingArgs) -> Answer<Read
     let mut given: Vec<usize> = Vec::new();
     for text in &flags.work_offset {
         let refuse = || {
-            Failure::new(
-                ErrorCode::Value,
-                format!(
+            ErrorCode::Value.failure(format!(
                     "--work-offset '{text}': write the coordinate system and its origin in the part in mm, as in G54=10,0,-5"
                 ),
             )
@@ -93,13 +90,10 @@ pub(crate) fn reading(job: Option<&JobFile>, flags: &ReadingArgs) -> Answer<Read
         let (name, values) = text.split_once('=').ok_or_else(refuse)?;
         let index = work_offset(name.trim()).ok_or_else(refuse)?;
         if given.contains(&index) {
-            return Err(Failure::new(
-                ErrorCode::Conflict,
-                format!(
-                    "--work-offset '{text}': the origin of {} is given twice; keep one of the two",
-                    WORK_OFFSETS[index]
-                ),
-            ));
+            return Err(ErrorCode::Conflict.failure(format!(
+                "--work-offset '{text}': the origin of {} is given twice; keep one of the two",
+                WORK_OFFSETS[index]
+            )));
         }
         given.push(index);
         let numbers: Vec<f64> = values

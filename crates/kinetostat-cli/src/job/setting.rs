@@ -37,7 +37,7 @@ use crate::job::robot_arguments::CorrectWord;
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::uncertain::{Uncertainty, uncertainty};
 use crate::job::values::{NotAllowed, above_zero, chosen, micrometres};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 
 /// Settings that decide a run along a program, except the model.
 pub(crate) struct Setting {
@@ -404,9 +404,7 @@ fn free_turn(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<FreeTurnWord>
     let chosen = match (flags.turn.stiff_turn, flags.turn.free_turn) {
         (true, true) => FreeTurnWord::Stiff,
         (true, false) if in_job == FreeTurnWord::AsStated => {
-            return Err(Failure::new(
-                ErrorCode::Missing,
-                "--stiff-turn says how the turn of the tool is chosen: give --free-turn, too (free_turn = \"stiff\" under [robot] says both)",
+            return Err(ErrorCode::Missing.failure("--stiff-turn says how the turn of the tool is chosen: give --free-turn, too (free_turn = \"stiff\" under [robot] says both)",
             ));
         }
         (true, false) => FreeTurnWord::Stiff,
@@ -414,9 +412,7 @@ fn free_turn(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<FreeTurnWord>
         (false, _) => in_job,
     };
     match (chosen, &flags.turn.turn_plot) {
-        (FreeTurnWord::AsStated, Some(_)) => Err(Failure::new(
-            ErrorCode::Missing,
-            "--turn-plot draws the turn of the tool that is chosen along the path: give --free-turn, too (free_turn = \"choose\" under [robot])",
+        (FreeTurnWord::AsStated, Some(_)) => Err(ErrorCode::Missing.failure("--turn-plot draws the turn of the tool that is chosen along the path: give --free-turn, too (free_turn = \"choose\" under [robot])",
         )),
         _ => Ok(chosen),
     }
@@ -430,9 +426,7 @@ pub(crate) fn program_path(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer
             .map(JobFile::base)
             .unwrap_or_default()
             .join(written.get_ref())),
-        (None, None) => Err(Failure::new(
-            ErrorCode::Missing,
-            match job {
+        (None, None) => Err(ErrorCode::Missing.failure(match job {
                 Some(j) => format!(
                     "the job file '{}' names no program; write  program = \"part.ngc\"  at its top, or give --program FILE",
                     j.path.display()

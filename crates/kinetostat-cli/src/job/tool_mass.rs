@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde_spanned::Spanned;
 
 use crate::job::job_file::JobFile;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Mass of a tool and its centre in the frame of the flange.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,9 +64,7 @@ pub(crate) fn carrying(model: &Model, tool: ToolMass) -> Answer<Model> {
     let name = &mechanism.platforms()[mechanism.tool()].name;
     let mut document = model.document.clone();
     let Some(own) = document.platform.iter_mut().find(|p| p.name == *name) else {
-        return Err(Failure::new(
-            ErrorCode::ModelUnsuited,
-            format!(
+        return Err(ErrorCode::ModelUnsuited.failure(format!(
                 "the model has no platform '{name}' that could carry the tool: leave mass_kg out of [tool]"
             ),
         ));

@@ -10,7 +10,7 @@ use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
 use crate::job::load::load;
 use crate::job::tool_mass::{ToolMass, carrying, tool_mass};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::{short, triple};
 
 /// The tools of `[[tools]]` with their numbers and loads; none where the job file has no such table. Where it has one,
@@ -28,9 +28,7 @@ pub(crate) fn numbered_tools(
         return Ok(tools);
     };
     if flags.tool_length_mm.is_some() {
-        return Err(Failure::new(
-            ErrorCode::Conflict,
-            "--tool-length-mm gives one length, but the job file has several tools under [[tools]]; change the length there, or leave the option out",
+        return Err(ErrorCode::Conflict.failure("--tool-length-mm gives one length, but the job file has several tools under [[tools]]; change the length there, or leave the option out",
         ));
     }
     let mut all = Vec::new();
@@ -76,10 +74,9 @@ pub(crate) fn numbered_tools(
 
 fn straight(length_mm: f64) -> Answer<(Pose, String)> {
     if !length_mm.is_finite() || length_mm.abs() > 1e5 {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!("the tool's length is {length_mm} mm; tools are shorter than 100 m"),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "the tool's length is {length_mm} mm; tools are shorter than 100 m"
+        )));
     }
     let words = if length_mm == 0.0 {
         "none: the platform's own point".to_owned()

@@ -11,7 +11,7 @@ use crate::files::origin;
 use crate::job::job_file::JobFile;
 use crate::job::values::{NotAllowed, chosen};
 use crate::options::whole;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Machines that are drawn by default.
 const MACHINES: usize = 1024;
@@ -51,9 +51,7 @@ pub(crate) fn uncertainty(
     let in_job = table.map(|(j, table)| j.base().join(table.file.get_ref()));
     let Some(path) = flags.uncertain.clone().or(in_job) else {
         return match flags.machines {
-            Some(_) => Err(Failure::new(
-                ErrorCode::Missing,
-                "--machines says how many machines are drawn: say with --uncertain FILE (file under [uncertain] in the job) how they scatter",
+            Some(_) => Err(ErrorCode::Missing.failure("--machines says how many machines are drawn: say with --uncertain FILE (file under [uncertain] in the job) how they scatter",
             )),
             None => Ok(None),
         };

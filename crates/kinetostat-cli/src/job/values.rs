@@ -4,7 +4,7 @@ use kinetostat_diagnostic::ErrorCode;
 use serde_spanned::Spanned;
 
 use crate::job::job_file::JobFile;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Allowed values, for a value that is not allowed.
 pub(crate) struct NotAllowed(pub(crate) &'static str);
@@ -19,7 +19,7 @@ pub(crate) fn chosen<T: Copy + std::fmt::Display, U>(
 ) -> Answer<Option<U>> {
     if let Some(value) = given {
         return allowed(value).map(Some).map_err(|NotAllowed(reason)| {
-            Failure::new(ErrorCode::Value, format!("{flag} is {value}: {reason}"))
+            ErrorCode::Value.failure(format!("{flag} is {value}: {reason}"))
         });
     }
     match (job, written) {

@@ -8,7 +8,7 @@ use crate::files::input_files::InputFiles;
 use crate::force::fit::findings::radial_above_tangential;
 use crate::force::material::{Made, applied, material, materials};
 use crate::lobes::arguments::LobesArgs;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::number;
 
 /// Tangential coefficients that materials have, N/mm^2: foams and wax have some tens, hardened steel with chips of some
@@ -43,20 +43,16 @@ impl CutCoefficients {
 
     fn of_material(args: &LobesArgs, arc: &Arc) -> Answer<Self> {
         let Some(feed_mm) = args.feed_per_tooth_mm else {
-            return Err(Failure::new(
-                ErrorCode::Missing,
-                "--material needs --feed-per-tooth-mm: how steep its law is depends on the thickness of the chips",
+            return Err(ErrorCode::Missing.failure("--material needs --feed-per-tooth-mm: how steep its law is depends on the thickness of the chips",
             ));
         };
         if !(1e-4..=10.0).contains(&feed_mm) {
-            return Err(Failure::new(
-                ErrorCode::Value,
-                format!("--feed-per-tooth-mm is {feed_mm}; 0.0001 to 10 mm are possible"),
-            ));
+            return Err(ErrorCode::Value.failure(format!(
+                "--feed-per-tooth-mm is {feed_mm}; 0.0001 to 10 mm are possible"
+            )));
         }
         if args.material.correct_speed {
-            return Err(Failure::new(
-                ErrorCode::Unused,
+            return Err(ErrorCode::Unused.failure(
                 "--correct-speed: the cutting speed differs along the lobes; leave it out",
             ));
         }
@@ -66,7 +62,7 @@ impl CutCoefficients {
         let applied = applied(&material, &args.material, Made::Milled, None, None)?;
         let chip_mm = feed_mm * arc.mean_sine().abs();
         let found = Coefficients::linearised(&applied.law, 1e-3 * chip_mm)
-            .map_err(|error| Failure::new(ErrorCode::UnknownName, error))?;
+            .map_err(|error| ErrorCode::UnknownName.failure(error))?;
         let outside = found.within_measured == Some(false);
         let warning = outside.then(|| {
             Warning::new(
@@ -127,24 +123,17 @@ fn odd_sign(law: &Coefficients, helix_deg: Option<f64>) -> Option<Warning> {
 
 fn stated(given: &[f64]) -> Answer<Coefficients> {
     let &[tangential, radial, axial] = given else {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            "--coefficients-n-per-mm2 needs KT KR KA",
-        ));
+        return Err(ErrorCode::Value.failure("--coefficients-n-per-mm2 needs KT KR KA"));
     };
     if tangential > 50.0 && radial != 0.0 && radial.abs() < 5.0 {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!(
+        return Err(ErrorCode::Value.failure(format!(
                 "--coefficients-n-per-mm2: KR is {radial} beside KT {tangential}; it looks like a ratio. In N/mm^2 it is {}",
                 radial * tangential
             ),
         ));
     }
     if !PLAUSIBLE.contains(&tangential) {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!(
+        return Err(ErrorCode::Value.failure(format!(
                 "--coefficients-n-per-mm2: KT is {tangential} N/mm^2; {} to {} are possible, from foam to hardened steel at thin chips{}",
                 PLAUSIBLE.start(),
                 PLAUSIBLE.end(),
@@ -162,14 +151,11 @@ fn stated(given: &[f64]) -> Answer<Coefficients> {
         .into_iter()
         .find(|k| k.abs() > *PLAUSIBLE.end());
     if let Some(other) = larger {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!(
-                "--coefficients-n-per-mm2: {other} N/mm^2 is more than any material has ({} at most)",
-                PLAUSIBLE.end()
-            ),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "--coefficients-n-per-mm2: {other} N/mm^2 is more than any material has ({} at most)",
+            PLAUSIBLE.end()
+        )));
     }
     Coefficients::new(1e6 * tangential, 1e6 * radial, 1e6 * axial)
-        .map_err(|error| Failure::new(ErrorCode::Value, error))
+        .map_err(|error| ErrorCode::Value.failure(error))
 }

@@ -23,7 +23,7 @@ use crate::lobes::coefficients::CutCoefficients;
 use crate::options::vector;
 use crate::place::query::PlaceQuery;
 use crate::ui::csv_table::{cell, cell_if_any, written};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::given::Given;
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::{number, short, triple};
@@ -65,7 +65,7 @@ pub(crate) fn run(args: &LobesArgs, given: &Given) -> Answer<()> {
     .map_err(refused)?;
     let diagram = regeneration
         .lobes(&request)
-        .map_err(|e| Failure::new(ErrorCode::NoAnswer, format!("lobes: {e}")))?;
+        .map_err(|e| ErrorCode::NoAnswer.failure(format!("lobes: {e}")))?;
     let mut warnings = query.warnings.clone();
     warnings.extend(subject::limits(&machine, &posture));
     let band_hz = diagram.modes_up_to_hz();
@@ -157,60 +157,48 @@ fn cut(args: &LobesArgs) -> Answer<(MillingCut, CutCoefficients)> {
         true => Milled::Up,
         false => Milled::Down,
     };
-    let arc = Arc::straight(milled, args.immersion)
-        .map_err(|error| Failure::new(ErrorCode::Value, error))?;
+    let arc =
+        Arc::straight(milled, args.immersion).map_err(|error| ErrorCode::Value.failure(error))?;
     let coefficients = CutCoefficients::of(args, &arc)?;
     let cut = MillingCut::new(args.teeth, arc, coefficients.law)
-        .map_err(|error| Failure::new(ErrorCode::Value, error))?;
+        .map_err(|error| ErrorCode::Value.failure(error))?;
     let cut = match (args.helix_deg, args.diameter_mm) {
         (None, _) => Ok(cut),
-        (Some(_), None) => Err(Failure::new(
-            ErrorCode::Missing,
-            "--helix-deg needs --diameter-mm: the edge lags behind its tip by both",
-        )),
+        (Some(_), None) => Err(ErrorCode::Missing
+            .failure("--helix-deg needs --diameter-mm: the edge lags behind its tip by both")),
         (Some(helix), Some(diameter)) => cut
             .with_helix(helix.to_radians(), 1e-3 * diameter)
-            .map_err(|error| Failure::new(ErrorCode::Value, error)),
+            .map_err(|error| ErrorCode::Value.failure(error)),
     };
     Ok((cut?, coefficients))
 }
 
 fn request(args: &LobesArgs) -> Answer<LobeRequest> {
     let &[low, high, count] = args.rpm.as_slice() else {
-        return Err(Failure::new(ErrorCode::Value, "--rpm needs LO HI N"));
+        return Err(ErrorCode::Value.failure("--rpm needs LO HI N"));
     };
     let one = count == 1.0 && low == high && low > 0.0 && low.is_finite();
     if one && args.outputs.plot.is_some() {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            "--plot draws limits over the spindle speed; --rpm names one speed",
-        ));
+        return Err(ErrorCode::Unused
+            .failure("--plot draws limits over the spindle speed; --rpm names one speed"));
     }
     if !one && (!(2.0..=20_000.0).contains(&count) || count.fract() != 0.0) {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!(
+        return Err(ErrorCode::Value.failure(format!(
                 "--rpm: N is {count}; a whole number from 2 to 20000 is needed, or 1 with the same speed twice"
             ),
         ));
     }
     let rising = low > 0.0 && high > low && high.is_finite();
     if !(one || rising) {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!(
-                "--rpm {low} {high}: spindle speeds above 0 are needed, the second above the first"
-            ),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "--rpm {low} {high}: spindle speeds above 0 are needed, the second above the first"
+        )));
     }
     if !(args.depth_mm > 0.0 && args.depth_mm <= 1e3) {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!(
-                "--depth-mm is {}; a depth above 0 and of at most 1000 mm is needed",
-                args.depth_mm
-            ),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "--depth-mm is {}; a depth above 0 and of at most 1000 mm is needed",
+            args.depth_mm
+        )));
     }
     Ok(LobeRequest::new(
         low,
@@ -227,14 +215,14 @@ fn frame(args: &LobesArgs, target: &Pose) -> Answer<FeedFrame> {
         None => target.rotation * -Vector3::z(),
     };
     let feed = vector("--feed-direction", &args.feed_direction)?;
-    FeedFrame::new(feed, axis).map_err(|error| Failure::new(ErrorCode::Value, error))
+    FeedFrame::new(feed, axis).map_err(|error| ErrorCode::Value.failure(error))
 }
 
 fn refused(error: MachineCutError) -> Failure {
     match error {
         MachineCutError::Machine(error) => subject::refused(error),
-        MachineCutError::Cut(error) => Failure::new(ErrorCode::Value, error),
-        _ => Failure::new(ErrorCode::NoAnswer, error),
+        MachineCutError::Cut(error) => ErrorCode::Value.failure(error),
+        _ => ErrorCode::NoAnswer.failure(error),
     }
 }
 

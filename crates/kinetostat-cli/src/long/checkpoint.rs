@@ -19,7 +19,7 @@ use crate::files::held_folder::{LOCK, hold};
 use crate::files::journal::{Contents, Entry};
 use crate::job::machine::MachineSetup;
 use crate::long::difference::difference;
-use crate::ui::failure::{Answer, Code, Failure};
+use crate::ui::failure::{Answer, Code, Failing, Failure};
 use crate::ui::system_error::description;
 
 /// Identity of a run, field by field with its value in words: another value is another run.
@@ -102,10 +102,11 @@ const NOT_KEPT: &str = "what is done so far cannot be kept";
 
 /// Failure to save a checkpoint.
 pub(crate) fn not_kept(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::new(
-        ErrorCode::Output,
-        format!("{NOT_KEPT} in '{}': {}", path.display(), description(error)),
-    )
+    ErrorCode::Output.failure(format!(
+        "{NOT_KEPT} in '{}': {}",
+        path.display(),
+        description(error)
+    ))
 }
 
 const MANIFEST: &str = "manifest.json";
@@ -139,9 +140,7 @@ impl Checkpoint {
         let kept: Option<Manifest> = self.read(MANIFEST);
         match kept.as_ref().map(|kept| kept.differs_in(manifest)) {
             Some(None) => Ok(true),
-            Some(Some(field)) if self.has_work() => Err(Failure::new(
-                ErrorCode::Checkpoint,
-                format!(
+            Some(Some(field)) if self.has_work() => Err(ErrorCode::Checkpoint.failure(format!(
                     "'{}' keeps a run that was interrupted, and what differs now is {field}; give the same question to go on with it, or --restart to begin anew (or delete the folder)",
                     self.folder.display()
                 ),
@@ -177,9 +176,7 @@ impl Checkpoint {
         fs::create_dir_all(&self.folder).map_err(|error| self.refused(&error))?;
         let lock = hold(&self.folder).map_err(|error| self.refused(&error))?;
         let Some(lock) = lock else {
-            return Err(Failure::new(
-                ErrorCode::Output,
-                format!(
+            return Err(ErrorCode::Output.failure(format!(
                     "another run writes the same output just now, and keeps what is done in '{}': wait until it has ended, or choose another output",
                     self.folder.display()
                 ),
@@ -277,10 +274,7 @@ impl Checkpoint {
     /// A value behind its check number.
     fn write(&self, name: &str, value: &impl Serialize) -> Answer<()> {
         let text = serde_json::to_string(value).map_err(|error| {
-            Failure::new(
-                ErrorCode::Internal,
-                format!("the state of the run cannot be kept: {error}"),
-            )
+            ErrorCode::Internal.failure(format!("the state of the run cannot be kept: {error}"))
         })?;
         let new = self.folder.join("new");
         let written = || -> std::io::Result<()> {

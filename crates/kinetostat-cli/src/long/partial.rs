@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use crate::files::journal::Contents;
 use crate::long::checkpoint::not_kept;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// An output that grows part by part.
 pub(crate) struct Partial {
@@ -116,9 +116,7 @@ impl Watched {
     pub(crate) fn refuse_if_changed(&self) -> Answer<()> {
         match self.found == self.written {
             true => Ok(()),
-            false => Err(Failure::new(
-                ErrorCode::Checkpoint,
-                "what was kept of the run was changed by something else: give --restart to begin anew",
+            false => Err(ErrorCode::Checkpoint.failure("what was kept of the run was changed by something else: give --restart to begin anew",
             )),
         }
     }

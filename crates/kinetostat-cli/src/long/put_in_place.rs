@@ -16,7 +16,7 @@ use crate::long::partial::Partial;
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
 use crate::program::points_parquet;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::progress::still_wanted;
 
 /// Checkpoint of a run: beside the first output.
@@ -106,10 +106,7 @@ fn put(from: &Partial, outputs: &mut Outputs, index: usize) -> Answer<String> {
     let mut hash = Sha256::new();
     loop {
         let count = reader.read(&mut block).map_err(|error| {
-            Failure::new(
-                ErrorCode::Checkpoint,
-                format!("what was kept cannot be read: {error}"),
-            )
+            ErrorCode::Checkpoint.failure(format!("what was kept cannot be read: {error}"))
         })?;
         if count == 0 {
             break;

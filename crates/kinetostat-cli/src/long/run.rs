@@ -32,7 +32,7 @@ use crate::program::features::put_found;
 use crate::program::outputs::RunOutputs;
 use crate::program::points_table;
 use crate::program::solve::{failure_of, too_many_blocks, with_task};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::progress::Progress;
 
 /// Interval between checkpoints.
@@ -85,11 +85,9 @@ pub(crate) fn survey(
 
 fn unread(setting: &Setting, error: PartError) -> Failure {
     let failure = match error {
-        PartError::Changed => Failure::new(
-            ErrorCode::Checkpoint,
-            "the program is another one than when the run began: its file was changed meanwhile, and nothing is written; give --restart to begin anew with the new program",
+        PartError::Changed => ErrorCode::Checkpoint.failure("the program is another one than when the run began: its file was changed meanwhile, and nothing is written; give --restart to begin anew with the new program",
         ),
-        error => Failure::new(ErrorCode::ProgramRefused, error).of_program(),
+        error => ErrorCode::ProgramRefused.failure(error).of_program(),
     };
     setting.within(failure)
 }
@@ -249,10 +247,9 @@ impl<'a> LongRun<'a> {
         } = work;
         let result = state.merged.finish(reading.collect());
         let Some(mut result) = result else {
-            return Err(self.setting.within(Failure::new(
-                ErrorCode::ProgramUnsuited,
-                "the program has no block",
-            )));
+            return Err(self
+                .setting
+                .within(ErrorCode::ProgramUnsuited.failure("the program has no block")));
         };
         result.warnings.extend(stands);
         result.warnings.extend(self.machine.not_carried.clone());

@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 
 use crate::files::hash::hex;
 use crate::job::setting::Setting;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Reads and counts what it reads.
 pub(crate) struct Hashed<R> {
@@ -42,9 +42,9 @@ impl<R: Read> Read for Hashed<R> {
 pub(crate) fn open(setting: &Setting) -> Answer<File> {
     let path = &setting.program_path;
     File::open(path).map_err(|error| {
-        Failure::new(
-            ErrorCode::FileNotRead,
-            format!("the program '{}' cannot be read: {error}", path.display()),
-        )
+        ErrorCode::FileNotRead.failure(format!(
+            "the program '{}' cannot be read: {error}",
+            path.display()
+        ))
     })
 }

@@ -5,7 +5,7 @@ use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{MapPlace, VARIABLES, Variable, Worse};
 
 use crate::map::arguments::{MapArgs, Quantity};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// A column of a further variable, SI.
 #[derive(Clone, Debug)]
@@ -140,10 +140,10 @@ pub(crate) fn asked(
     let mut variables = Vec::new();
     for name in &args.variables {
         let Some(variable) = Variable::named(name) else {
-            return Err(Failure::new(
-                ErrorCode::UnknownName,
-                format!("--variables: there is no '{name}'; there are {}", known()),
-            ));
+            return Err(ErrorCode::UnknownName.failure(format!(
+                "--variables: there is no '{name}'; there are {}",
+                known()
+            )));
         };
         if !variables.contains(&variable) {
             variables.push(variable);
@@ -157,9 +157,7 @@ pub(crate) fn asked(
             .find(|v| names(*v, actuators.len()).contains(&args.show));
         let Some(own) = own else {
             let several = entries.clone().find(|v| v.entry().name == args.show);
-            return Err(Failure::new(
-                ErrorCode::Missing,
-                match several {
+            return Err(ErrorCode::Missing.failure(match several {
                     Some(several) => format!(
                         "--show: '{}' has several columns; choose one of {}",
                         args.show,
@@ -179,7 +177,7 @@ pub(crate) fn asked(
     }
     for variable in &variables {
         let name = variable.entry().name;
-        let refuse = |what: &str| Err(Failure::new(ErrorCode::Missing, format!("'{name}' {what}")));
+        let refuse = |what: &str| Err(ErrorCode::Missing.failure(format!("'{name}' {what}")));
         if variable.needs_load() && !loaded {
             return refuse("needs a load; give --force or --moment (zeros are one, too)");
         }
@@ -195,9 +193,7 @@ pub(crate) fn asked(
         None => {
             let all = columns(&variables, actuators);
             let own = all.into_iter().find(|c| c.name == args.show);
-            Shown::Column(
-                own.ok_or_else(|| Failure::new(ErrorCode::Missing, "--show: nothing to show"))?,
-            )
+            Shown::Column(own.ok_or_else(|| ErrorCode::Missing.failure("--show: nothing to show"))?)
         }
     };
     Ok((variables, shown))

@@ -6,7 +6,7 @@ use kinetostat_machining::{Grid, MapPlace};
 
 use crate::map::columns::Column;
 use crate::map::query::AXES;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Columns of a map, SI, gathered place by place.
 pub(crate) struct Gathering {
@@ -113,10 +113,9 @@ impl Gathering {
 
 /// A NetCDF file as bytes: its crate writes to a path.
 pub(crate) fn netcdf(fields: &Fields) -> Answer<Vec<u8>> {
-    let part =
-        tempfile::NamedTempFile::new().map_err(|error| Failure::new(ErrorCode::Output, error))?;
+    let part = tempfile::NamedTempFile::new().map_err(|error| ErrorCode::Output.failure(error))?;
     fields
         .write_netcdf(part.path())
-        .map_err(|error| Failure::new(ErrorCode::Output, error))?;
-    std::fs::read(part.path()).map_err(|error| Failure::new(ErrorCode::Output, error))
+        .map_err(|error| ErrorCode::Output.failure(error))?;
+    std::fs::read(part.path()).map_err(|error| ErrorCode::Output.failure(error))
 }

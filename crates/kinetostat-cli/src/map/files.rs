@@ -16,7 +16,7 @@ use crate::map::answer::MapAnswer;
 use crate::map::arguments::MapArgs;
 use crate::map::fields::{Gathering, netcdf};
 use crate::map::picture::Picture;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::number;
 
 /// Places of the files among the outputs.
@@ -88,15 +88,12 @@ impl Files {
 fn parquet_of(fields: &Fields) -> Answer<Vec<u8>> {
     fields
         .parquet()
-        .map_err(|error| Failure::new(ErrorCode::Output, error))
+        .map_err(|error| ErrorCode::Output.failure(error))
 }
 
 #[cfg(not(feature = "parquet"))]
 fn parquet_of(_: &Fields) -> Answer<Vec<u8>> {
-    Err(Failure::new(
-        ErrorCode::NotBuiltIn,
-        "--parquet: this program was built without Parquet",
-    ))
+    Err(ErrorCode::NotBuiltIn.failure("--parquet: this program was built without Parquet"))
 }
 
 /// About as many lines of equal value.

@@ -37,7 +37,7 @@ use crate::map::query::{grid, loads};
 use crate::map::solve::{Sinks, solve};
 use crate::map::store::{Manifest, Store};
 use crate::place::orientation;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::numbers::{load_triple, short};
 use crate::ui::result_form::ResultForm;
 use crate::ui::{json, threads};
@@ -118,10 +118,9 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
 fn with_tool(args: &MapArgs, model: &Model) -> Answer<Mechanism> {
     let length = args.tool_length_mm.unwrap_or(0.0);
     if length.abs() > 1e5 {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!("--tool-length-mm is {length}; tools are shorter than 100 m"),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "--tool-length-mm is {length}; tools are shorter than 100 m"
+        )));
     }
     Ok((model.mechanism).with_tool(&straight_tool(1e-3 * length)))
 }
@@ -129,8 +128,7 @@ fn with_tool(args: &MapArgs, model: &Model) -> Answer<Mechanism> {
 /// Refuses effects of a load without a load.
 fn shown_with_a_load(args: &MapArgs, loads: &[Wrench]) -> Answer<()> {
     if loads.is_empty() && matches!(&*args.show, "displacement" | "rotation") {
-        return Err(Failure::new(
-            ErrorCode::Missing,
+        return Err(ErrorCode::Missing.failure(
             "--show displacement and --show rotation need a load; give --force or --moment",
         ));
     }
@@ -298,10 +296,8 @@ impl Orientations {
             .map(|text| orientation::option_or_follows("--rotation", text))
             .collect::<Answer<_>>()?;
         if requested.len() > 1 && requested.iter().any(Option::is_none) {
-            return Err(Failure::new(
-                ErrorCode::Conflict,
-                "--rotation follows is the only orientation, or none of them",
-            ));
+            return Err(ErrorCode::Conflict
+                .failure("--rotation follows is the only orientation, or none of them"));
         }
         let home = mechanism.platforms()[mechanism.tool()].home.rotation;
         let first = requested.first().copied();
@@ -321,9 +317,7 @@ impl Orientations {
     pub(crate) fn cases(&self, loads: &[Wrench]) -> Answer<usize> {
         let cases = self.requested.len().max(1) * loads.len().max(1);
         if cases > 1 && self.follows {
-            return Err(Failure::new(
-                ErrorCode::Missing,
-                "several loads are compared where the orientation is held; give --rotation, or one load",
+            return Err(ErrorCode::Missing.failure("several loads are compared where the orientation is held; give --rotation, or one load",
             ));
         }
         Ok(cases)
@@ -354,9 +348,7 @@ fn without_figures(task: &MapTask<'_>, places: &Places) -> Option<Failure> {
     if places.no_answer > 0 {
         return Some(no_equilibrium(task, places));
     }
-    Some(Failure::new(
-        ErrorCode::Unreachable,
-        format!(
+    Some(ErrorCode::Unreachable.failure(format!(
             "the machine {} with the tool {} (cannot be reached: {}; outside the limits of an actuator: {}); choose places inside the workspace (`kinetostat check` tells its size), another --rotation, or check the tool's length",
             match places.requested {
                 1 => "cannot be put at the place".to_owned(),
@@ -379,9 +371,7 @@ fn no_equilibrium(task: &MapTask<'_>, places: &Places) -> Failure {
             places.no_answer, places.unreachable, places.outside_limits
         ),
     };
-    Failure::new(
-        ErrorCode::NotConverged,
-        format!(
+    ErrorCode::NotConverged.failure(format!(
             "no equilibrium was found {} under the force {} N and the moment {} N m{counts}: the load may be beyond what the machine can carry; check the load and its unit, or try a part of it",
             match places.requested {
                 1 => "at the place".to_owned(),

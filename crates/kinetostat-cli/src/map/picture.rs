@@ -8,7 +8,7 @@ use crate::map::answer::MapAnswer;
 use crate::map::arguments::MapArgs;
 use crate::map::columns::Shown;
 use crate::map::query::AXES;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::{load_triple, short};
 
 /// Upper limit of the cells of a drawing along an axis; a finer grid is thinned.
@@ -162,9 +162,7 @@ fn across(section: Option<&str>, grid: &Grid) -> Answer<(usize, usize)> {
         return Ok((axis, (grid.counts[axis] - 1) / 2));
     };
     let refuse = || {
-        Failure::new(
-            ErrorCode::Value,
-            format!(
+        ErrorCode::Value.failure(format!(
                 "--section '{text}': write the axis across the section and where it is cut in mm, as in z=150"
             ),
         )

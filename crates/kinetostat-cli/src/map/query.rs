@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use crate::map::arguments::MapArgs;
 use crate::options::vector;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Upper limit of the places: more are a typing error, and their table would fill a disk.
 const MOST_PLACES: usize = 100_000_000;
@@ -25,19 +25,16 @@ pub(crate) fn grid(args: &MapArgs, home_mm: [f64; 3]) -> Answer<Grid> {
     };
     let requested = [&args.x, &args.y, &args.z];
     if requested.iter().all(|a| a.is_none()) {
-        return Err(Failure::new(
-            ErrorCode::Missing,
-            "a map needs places; give at least one of --x, --y and --z, as in --x -100 100 21 (from, to in mm, how many)",
+        return Err(ErrorCode::Missing.failure("a map needs places; give at least one of --x, --y and --z, as in --x -100 100 21 (from, to in mm, how many)",
         ));
     }
     for (k, values) in requested.into_iter().enumerate() {
         let Some(values) = values else { continue };
         let name = AXES[k];
         if values.iter().take(2).any(|x| x.abs() > 1e7) {
-            return Err(Failure::new(
-                ErrorCode::Value,
-                format!("--{name} leads more than 10 km away; coordinates are in mm"),
-            ));
+            return Err(ErrorCode::Value.failure(format!(
+                "--{name} leads more than 10 km away; coordinates are in mm"
+            )));
         }
         (grid.from_mm[k], grid.to_mm[k], grid.counts[k]) = match values[..] {
             [at] => (at, at, 1),
@@ -45,9 +42,7 @@ pub(crate) fn grid(args: &MapArgs, home_mm: [f64; 3]) -> Answer<Grid> {
             [from, to] => (from, to, USUAL),
             [from, to, n] if n.fract() == 0.0 && n >= 1.0 && n <= MOST_PLACES as f64 => {
                 if (n == 1.0) != (from == to) {
-                    return Err(Failure::new(
-                        ErrorCode::Value,
-                        format!(
+                    return Err(ErrorCode::Value.failure(format!(
                             "--{name} {from} {to} {n}: two places or more lie between different ends, one place where they are the same"
                         ),
                     ));
@@ -55,9 +50,7 @@ pub(crate) fn grid(args: &MapArgs, home_mm: [f64; 3]) -> Answer<Grid> {
                 (from, to, n as usize)
             }
             _ => {
-                return Err(Failure::new(
-                    ErrorCode::Value,
-                    format!(
+                return Err(ErrorCode::Value.failure(format!(
                         "--{name}: write one position, or from, to (mm) and a whole number of places, as in --{name} -100 100 21"
                     ),
                 ));
@@ -69,13 +62,10 @@ pub(crate) fn grid(args: &MapArgs, home_mm: [f64; 3]) -> Answer<Grid> {
         }
     }
     if grid.len() > MOST_PLACES {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!(
-                "the grid has {} places; {MOST_PLACES} are the most",
-                grid.len()
-            ),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "the grid has {} places; {MOST_PLACES} are the most",
+            grid.len()
+        )));
     }
     Ok(grid)
 }
@@ -96,14 +86,11 @@ pub(crate) fn loads(args: &MapArgs) -> Answer<Vec<Wrench>> {
     };
     let each = (0..count).map(|i| match (of(&forces, i), of(&moments, i)) {
         (Some(force), Some(moment)) => Ok(Wrench::new(force, moment)),
-        _ => Err(Failure::new(
-            ErrorCode::Conflict,
-            format!(
-                "there are {} forces and {} moments; give one for all, or as many of both",
-                forces.len(),
-                moments.len()
-            ),
-        )),
+        _ => Err(ErrorCode::Conflict.failure(format!(
+            "there are {} forces and {} moments; give one for all, or as many of both",
+            forces.len(),
+            moments.len()
+        ))),
     });
     each.collect()
 }

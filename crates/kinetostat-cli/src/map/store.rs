@@ -16,7 +16,7 @@ use kinetostat_machining::{Grid, MapPlace, PlaceState};
 
 use crate::files::hash::{FNV1A, fnv1a};
 use crate::files::held_folder::hold;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::system_error::description;
 
 /// Places that are kept together, as a map solves them.
@@ -64,10 +64,7 @@ impl Store {
         places: usize,
     ) -> Answer<Self> {
         let refuse = |path: &Path, what: &dyn std::fmt::Display| {
-            Failure::new(
-                ErrorCode::Checkpoint,
-                format!("--resume: '{}': {what}", path.display()),
-            )
+            ErrorCode::Checkpoint.failure(format!("--resume: '{}': {what}", path.display()))
         };
         fs::create_dir_all(directory).map_err(|e| refuse(directory, &description(&e)))?;
         let lock = hold(directory).map_err(|e| refuse(directory, &description(&e)))?;
@@ -78,7 +75,7 @@ impl Store {
         let named = directory.join("manifest.json");
         let path = directory.join("rows.bin");
         let wanted = serde_json::to_string_pretty(manifest)
-            .map_err(|error| Failure::new(ErrorCode::Checkpoint, error))?;
+            .map_err(|error| ErrorCode::Checkpoint.failure(error))?;
         let begin = || {
             let mut part =
                 tempfile::NamedTempFile::new_in(directory).map_err(|e| refuse(&named, &e))?;
@@ -138,9 +135,7 @@ impl Store {
     }
 
     fn failed(&self, error: &std::io::Error) -> Failure {
-        Failure::new(
-            ErrorCode::Checkpoint,
-            format!(
+        ErrorCode::Checkpoint.failure(format!(
                 "--resume: '{}': {}; nothing of what was kept is lost, and the same command goes on from there",
                 self.path.display(),
                 description(error)
@@ -182,9 +177,7 @@ impl Store {
             .filter(|_| row[0] >= 0.0);
         let found = FOUND.get(row[1] as usize).filter(|_| row[1] >= 0.0);
         let (Some(state), Some(found)) = (state, found) else {
-            return Err(Failure::new(
-                ErrorCode::Checkpoint,
-                format!(
+            return Err(ErrorCode::Checkpoint.failure(format!(
                     "--resume: '{}': row {place} is not one of a map; remove the directory and begin again",
                     self.path.display()
                 ),

@@ -14,7 +14,7 @@ use crate::job::of_model::give_of_model;
 use crate::job::robot_arguments::CorrectWord;
 use crate::job::setting::{Setting, setting};
 use crate::mirror::arguments::MirrorArgs;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 
 /// A program (that is drawn, or that was measured) and how it is read and written.
 pub(crate) fn asked(
@@ -33,16 +33,13 @@ pub(crate) fn asked(
     };
     let mut setting = setting(files, job, &flags, &writing)?;
     if setting.flat.is_some() {
-        return Err(setting.within(Failure::new(ErrorCode::ProgramUnsuited,
-            "mirror takes programs without macros and in one piece, so that trials stay comparable: expand the program first (`kinetostat expand`), and mirror the flat one",
+        return Err(setting.within(ErrorCode::ProgramUnsuited.failure("mirror takes programs without macros and in one piece, so that trials stay comparable: expand the program first (`kinetostat expand`), and mirror the flat one",
         )));
     }
     refuse_lines_beyond(job, &setting)?;
     let of_pose = args.robot.correct == Some(CorrectWord::Pose);
     if of_pose && !names_model(job) {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            "--correct pose: measured points correct where the tool is, not how it stands; only a model does that (--job with a model)",
+        return Err(ErrorCode::Unused.failure("--correct pose: measured points correct where the tool is, not how it stands; only a model does that (--job with a model)",
         ));
     }
     if names_model(job) {
@@ -86,14 +83,11 @@ pub(crate) fn settings_of(
     let usual = MeasureSettings::default();
     let chosen = args.register.map(Register::from);
     let register = chosen.or(before.map(|state| state.settings.register)).ok_or_else(|| {
-        Failure::new(ErrorCode::Missing,
-            "how the points are registered is not stated, and what a registration takes away is not corrected: give --register none (points in the frame of the program), translation (a shift is not corrected), or rigid (a shift and a turn are not corrected)",
+        ErrorCode::Missing.failure("how the points are registered is not stated, and what a registration takes away is not corrected: give --register none (points in the frame of the program), translation (a shift is not corrected), or rigid (a shift and a turn are not corrected)",
         )
     })?;
     if args.scale && register != Register::Rigid {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            format!(
+        return Err(ErrorCode::Unused.failure(format!(
                 "--scale: a scale is sought besides a rigid motion, and the registration is '{}'; give --register rigid, or leave --scale out",
                 register.word()
             ),
@@ -110,12 +104,9 @@ pub(crate) fn settings_of(
         .map_err(|error| Failure::from(error).within("--smoothing-mm"))?;
     match settings.window_mm > 0.0 {
         true => Ok(settings),
-        false => Err(Failure::new(
-            ErrorCode::Value,
-            format!(
-                "--window-mm {}: a length above 0 is needed",
-                settings.window_mm
-            ),
-        )),
+        false => Err(ErrorCode::Value.failure(format!(
+            "--window-mm {}: a length above 0 is needed",
+            settings.window_mm
+        ))),
     }
 }

@@ -13,7 +13,7 @@ use crate::job::job_file::JobFile;
 use crate::job::program::read_program;
 use crate::mirror::arguments::MirrorArgs;
 use crate::mirror::asked::{asked, hash_of};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 
 /// Standard deviations that a measurement of a point can have, um: an interferometer at rest, and a tape measure.
 const FINEST_UM: f64 = 1e-3;
@@ -40,14 +40,13 @@ pub(crate) fn measurements(
                 let second = asked(files, job, args, path)?;
                 let read = read_program(&second)?;
                 if let Some(line) = read.with(|program| program.mark_line()) {
-                    return Err(Failure::new(ErrorCode::ProgramUnsuited, format!(
+                    return Err(ErrorCode::ProgramUnsuited.failure(format!(
                         "line {line}: the program is marked as compensated: its path is that of the commands, not of the machine, and its corrections would be mirrored as errors; give measured points, or a program of what was measured"
                     ))
                     .within(&name));
                 }
                 if hash_of(&second) == hash {
-                    return Err(Failure::new(ErrorCode::ProgramUnsuited,
-                        "this is the program itself, which lies on its own path: nothing was measured; give measured points, or a program of what was measured",
+                    return Err(ErrorCode::ProgramUnsuited.failure("this is the program itself, which lies on its own path: nothing was measured; give measured points, or a program of what was measured",
                     )
                     .within(&name));
                 }
@@ -79,9 +78,7 @@ pub(crate) fn repeatability(
         Some(um) if (FINEST_UM..=COARSEST_UM).contains(&um) => {
             Ok(Some(Repeatability::OfPoints(1e-3 * um)))
         }
-        Some(um) => Err(Failure::new(
-            ErrorCode::Value,
-            format!(
+        Some(um) => Err(ErrorCode::Value.failure(format!(
                 "--repeatability-um {um}: measurements repeat within {FINEST_UM} to {COARSEST_UM} um; give a standard deviation above 0, in micrometres"
             ),
         )),

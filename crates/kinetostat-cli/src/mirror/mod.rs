@@ -43,14 +43,14 @@ use crate::mirror::arguments::MirrorArgs;
 use crate::mirror::asked::{asked, flags_of, hash_of, names_model, settings_of};
 use crate::mirror::measured::{measurements, repeatability};
 use crate::mirror::written::written;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::json;
 use crate::ui::numbers::{number, short};
 use crate::ui::result_form::ResultForm;
 
 impl From<MirrorError> for Failure {
     fn from(error: MirrorError) -> Self {
-        Self::new(ErrorCode::FileForm, error.to_string())
+        ErrorCode::FileForm.failure(error)
     }
 }
 
@@ -88,9 +88,7 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
     fits.map_err(|error| of_state(error.into()))?;
     let kept = state.compensation.clone().map(Manifest);
     if let Some(field) = kept.and_then(|kept| kept.differs_in(&compensation)) {
-        return Err(of_state(Failure::new(
-            ErrorCode::Conflict,
-            format!(
+        return Err(of_state(ErrorCode::Conflict.failure(format!(
                 "its trials were made on top of another compensation by a model, and what differs now is {field}: go on with the same --job, or begin with a new state"
             ),
         )));
@@ -369,9 +367,7 @@ fn read_state(files: &InputFiles, path: &Path) -> Answer<MirrorState> {
             .iter()
             .filter(|b| **b == b'\n')
             .count();
-        Failure::new(
-            ErrorCode::FileForm,
-            format!(
+        ErrorCode::FileForm.failure(format!(
                 "'{}', line {line}: this is no state of trials: {}; name the file that an earlier run wrote with --state",
                 path.display(),
                 error.message()
@@ -381,9 +377,7 @@ fn read_state(files: &InputFiles, path: &Path) -> Answer<MirrorState> {
     let digest: Digest = toml::from_str(&text).map_err(of_file)?;
     let state = toml::from_str(&text).map_err(of_file)?;
     match digest.content_sha256 {
-        Some(written) if written != digest_of(&text) => Err(Failure::new(
-            ErrorCode::FileForm,
-            format!(
+        Some(written) if written != digest_of(&text) => Err(ErrorCode::FileForm.failure(format!(
                 "'{}': the file was changed after it was written ({DIGEST} is not that of its content), and corrections would no longer be those of the programs that were run; take a copy of it as it was, or begin with a new state (another --state, and the program without a correction as trial 1)",
                 path.display()
             ),
@@ -401,10 +395,7 @@ fn digest_of(text: &str) -> String {
 
 fn state_text(state: &MirrorState) -> Answer<String> {
     let content = toml::to_string(state).map_err(|error| {
-        Failure::new(
-            ErrorCode::Internal,
-            format!("the state cannot be written: {error}"),
-        )
+        ErrorCode::Internal.failure(format!("the state cannot be written: {error}"))
     })?;
     Ok(format!("{DIGEST} = \"{}\"\n{content}", digest_of(&content)))
 }

@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::files::input_files::InputFiles;
 use crate::machine::units::unit;
 use crate::place::joints::{self, JointValue};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::json;
 use crate::ui::layout::{self, columns, item, wrapped};
 use crate::ui::numbers::{fixed, number, short, triple};
@@ -136,25 +136,19 @@ fn cannot_be_compared(error: &ComparisonError, a: &str, b: &str) -> Failure {
     };
     match error {
         ComparisonError::NoActuator => {
-            Failure::new(ErrorCode::ModelUnsuited, format!("{a} has no actuator"))
+            ErrorCode::ModelUnsuited.failure(format!("{a} has no actuator"))
         }
-        ComparisonError::DifferentActuators { a: of_a, b: of_b } => Failure::new(
-            ErrorCode::ModelUnsuited,
-            format!(
+        ComparisonError::DifferentActuators { a: of_a, b: of_b } => ErrorCode::ModelUnsuited.failure(format!(
                 "the actuators differ, or their order: {a} has {}, {b} has {}; only machines of the same joints in the same order can be mapped on each other",
                 list(of_a),
                 list(of_b)
             ),
         ),
-        ComparisonError::TooFewPostures => Failure::new(
-            ErrorCode::NoAnswer,
-            format!("{a}: its loops close at too few postures around home to compare them"),
+        ComparisonError::TooFewPostures => ErrorCode::NoAnswer.failure(format!("{a}: its loops close at too few postures around home to compare them"),
         ),
-        ComparisonError::NoMapping => Failure::new(
-            ErrorCode::NoAnswer,
-            format!("{b} cannot take the posture of {a}, with no sign of its joints"),
+        ComparisonError::NoMapping => ErrorCode::NoAnswer.failure(format!("{b} cannot take the posture of {a}, with no sign of its joints"),
         ),
-        other => Failure::new(ErrorCode::NoAnswer, other),
+        other => ErrorCode::NoAnswer.failure(other),
     }
 }
 

@@ -15,7 +15,7 @@ use crate::machine::principal_directions::motion_description;
 use crate::options::{EXIT_CODES, number};
 use crate::place::arguments::PlaceArgs;
 use crate::place::query::{PlaceQuery, place_query};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::layout::wrapped;
 use crate::ui::numbers::{self, fixed, load_triple, short, triple};
 use crate::ui::screen::{self, Stream};
@@ -87,9 +87,7 @@ Exit codes:
 pub(crate) fn run(args: &DrawArgs) -> Answer<()> {
     let loaded = args.force.is_some() || args.moment.is_some();
     if args.scale.is_some() && !loaded {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            "--scale says how much larger a deflection is drawn, but there is none; give --force or --moment",
+        return Err(ErrorCode::Unused.failure("--scale says how much larger a deflection is drawn, but there is none; give --force or --moment",
         ));
     }
     let query = place_query(
@@ -169,15 +167,10 @@ fn motion(posture: &Posture, rank: usize) -> Answer<(Moved, String)> {
     list.sort_by(|a, b| a.stiffness_n_per_m.total_cmp(&b.stiffness_n_per_m));
     let count = list.len();
     let Some(direction) = rank.checked_sub(1).and_then(|i| list.get(i)) else {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            match count {
-                0 => "--motion: the machine is rigid, its tool moves in no direction".to_owned(),
-                _ => format!(
-                    "--motion is {rank}; directions are numbered 1 (the softest) to {count}"
-                ),
-            },
-        ));
+        return Err(ErrorCode::Value.failure(match count {
+            0 => "--motion: the machine is rigid, its tool moves in no direction".to_owned(),
+            _ => format!("--motion is {rank}; directions are numbered 1 (the softest) to {count}"),
+        }));
     };
     let mut direction = (*direction).clone();
     let (from, to) = small_motion(posture, &stiffness, &direction.twist)?;

@@ -10,7 +10,7 @@ use kinetostat_diagnostic::ErrorCode;
 use kinetostat_model::{Model, PresetKind, json_schema, preset_names, preset_text};
 
 use crate::model::arguments::{ModelAction, ModelArgs};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::layout::{self, listed};
 use crate::ui::result_form::ResultForm;
 use crate::ui::screen::{self, Stream};
@@ -27,10 +27,9 @@ pub(crate) fn run(args: &ModelArgs) -> Answer<()> {
             Some(text) => screen::print_bytes(text.as_bytes()),
             None => Err(match Model::preset(name) {
                 Err(error) => error.into(),
-                Ok(_) => Failure::new(
-                    ErrorCode::UnknownName,
-                    format!("there is no preset named '{name}'"),
-                ),
+                Ok(_) => {
+                    ErrorCode::UnknownName.failure(format!("there is no preset named '{name}'"))
+                }
             }),
         },
         ModelAction::Compare { a, b, json } => compare::run(a, b, *json),

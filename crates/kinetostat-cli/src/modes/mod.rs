@@ -18,7 +18,7 @@ use crate::files::answer_files::{ClaimedFiles, Shown};
 use crate::modes::answer::answer;
 use crate::modes::arguments::ModesArgs;
 use crate::place::query::PlaceQuery;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::number;
 use crate::ui::result_form::ResultForm;
 use crate::vibration::pair::{frequency_hz, growth_per_s};
@@ -31,10 +31,7 @@ pub(crate) const RESULTS: &[ResultForm] =
 
 pub(crate) fn run(args: &ModesArgs) -> Answer<()> {
     if args.modes == 0 {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            "--modes is 0; ask for one at least",
-        ));
+        return Err(ErrorCode::Value.failure("--modes is 0; ask for one at least"));
     }
     let query = subject::query(&args.machine)?;
     let damping = args.damping.law(&query.damping)?;

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::machine::units::unit;
 use crate::place::arguments::PlaceArgs;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::layout::wrapped;
 use crate::ui::numbers::short;
 use crate::ui::screen::{self, Stream};
@@ -108,9 +108,7 @@ pub(crate) fn given(model: &Model, place: &PlaceArgs) -> Answer<Option<Vec<f64>>
         }
     };
     let Some(controller) = &model.controller else {
-        return Err(Failure::new(
-            ErrorCode::ModelUnsuited,
-            format!(
+        return Err(ErrorCode::ModelUnsuited.failure(format!(
                 "{option}: the model has no [controller] that says what the controller shows; give the model's own joint values with --joints, or write the section (kinetostat model schema)",
             ),
         ));
@@ -148,7 +146,7 @@ fn read(flag: &str, given: &[String], names: &[Named], start: Vec<f64>) -> Answe
     let mut seen: Vec<usize> = Vec::new();
     for text in given {
         let refuse =
-            |reason: String| Failure::new(ErrorCode::Value, format!("{flag} '{text}': {reason}"));
+            |reason: String| ErrorCode::Value.failure(format!("{flag} '{text}': {reason}"));
         let Some((name, value)) = text.rsplit_once('=') else {
             return Err(refuse(
                 "write the name of a joint and its value, as in J1=10 or E1=1250mm".into(),

@@ -6,7 +6,7 @@ use kinetostat_machining::{Warning, WarningCode};
 use kinetostat_model::schema::Placement;
 use nalgebra::UnitQuaternion;
 
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::short;
 use crate::ui::spelling::nearest;
 
@@ -51,8 +51,7 @@ pub(crate) fn follows(turned_deg: f64, requested: bool, at_most: bool) -> Warnin
 
 /// `CONVENTION=A,B,C` of an option.
 pub(crate) fn option(flag: &str, text: &str) -> Answer<UnitQuaternion<f64>> {
-    let refuse =
-        |reason: String| Failure::new(ErrorCode::Value, format!("{flag} '{text}': {reason}"));
+    let refuse = |reason: String| ErrorCode::Value.failure(format!("{flag} '{text}': {reason}"));
     let names = CONVENTIONS.join(", ");
     let Some((name, values)) = text.split_once('=') else {
         return Err(refuse(format!(

@@ -23,7 +23,7 @@ use crate::options::vector;
 use crate::place::arguments::PlaceArgs;
 use crate::place::joints::{self, JointValue};
 use crate::place::orientation;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::layout::wrapped;
 use crate::ui::numbers::{pose_text, short, triple};
 
@@ -85,10 +85,9 @@ pub(crate) fn place_query_of(
 ) -> Answer<PlaceQuery> {
     let length = tool_length_mm.unwrap_or(0.0);
     if !length.is_finite() || length.abs() > 1e5 {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!("--tool-length-mm is {length}; tools are shorter than 100 m"),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "--tool-length-mm is {length}; tools are shorter than 100 m"
+        )));
     }
     let mechanism = read.mechanism.with_tool(&straight_tool(1e-3 * length));
     let home = mechanism.platforms()[mechanism.tool()].home;
@@ -106,10 +105,8 @@ pub(crate) fn place_query_of(
         (Some(at), _) => {
             let position = vector("--at", at)? * 1e-3;
             if position.norm() > FARTHEST {
-                return Err(Failure::new(
-                    ErrorCode::Value,
-                    "--at lies more than 10 km away; coordinates are in mm",
-                ));
+                return Err(ErrorCode::Value
+                    .failure("--at lies more than 10 km away; coordinates are in mm"));
             }
             Pose::from_parts(position.into(), rotation)
         }

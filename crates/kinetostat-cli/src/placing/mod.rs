@@ -36,7 +36,7 @@ use crate::placing::arguments::PlacingArgs;
 use crate::placing::part::beside_the_part;
 use crate::program::aim::Aim;
 use crate::program::solve::{forces_of, with_task};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::given::Given;
 use crate::ui::json;
 use crate::ui::progress::Progress;
@@ -66,10 +66,9 @@ pub(crate) fn run(args: &PlacingArgs, given: &Given) -> Answer<()> {
     if let Some(samples) = args.samples
         && !(1..=MOST_SAMPLES).contains(&samples)
     {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!("--samples {samples}: 1 to {MOST_SAMPLES} placements can fill the ranges"),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "--samples {samples}: 1 to {MOST_SAMPLES} placements can fill the ranges"
+        )));
     }
     let question = question(job, args)?;
     let mut setting = setting(&files, job, &args.program, &WritingFlags::default())?;
@@ -154,8 +153,7 @@ pub(crate) fn run(args: &PlacingArgs, given: &Given) -> Answer<()> {
     }
     if let Some(index) = plot_out {
         let drawing = picture::drawing(&answer, &space).ok_or_else(|| {
-            Failure::new(
-                ErrorCode::Unused,
+            ErrorCode::Unused.failure(
                 "--plot: there is nothing to draw where only fixtures are compared: leave it out",
             )
         })?;
@@ -170,10 +168,7 @@ pub(crate) fn run(args: &PlacingArgs, given: &Given) -> Answer<()> {
 /// Refuses a result without a feasible placement.
 fn refuse_nowhere(placed: &Placed, space: &Space) -> Answer<()> {
     match &placed.nowhere {
-        Some(nowhere) => Err(Failure::new(
-            ErrorCode::NoAnswer,
-            text::nowhere_text(nowhere, space),
-        )),
+        Some(nowhere) => Err(ErrorCode::NoAnswer.failure(text::nowhere_text(nowhere, space))),
         None => Ok(()),
     }
 }
@@ -193,10 +188,7 @@ fn refuse_what_says_nothing(given: &ProgramArgs) -> Answer<()> {
     } else {
         return Ok(());
     };
-    Err(Failure::new(
-        ErrorCode::Unused,
-        format!("place has no use for {what}"),
-    ))
+    Err(ErrorCode::Unused.failure(format!("place has no use for {what}")))
 }
 
 /// Largest turn allowed either way, degrees.
@@ -265,7 +257,7 @@ fn space(
             finite(&name, values)?;
             let ends = [values[0], values[1]];
             if let Some(fault) = fault(variable, ends) {
-                return Err(Failure::new(ErrorCode::Value, format!("{name}: {fault}")));
+                return Err(ErrorCode::Value.failure(format!("{name}: {fault}")));
             }
             ends
         } else if let (Some(j), Some(ends)) = (job, table.and_then(|t| written(t, variable))) {
@@ -282,7 +274,7 @@ fn space(
     }
     let fixtures = fixtures(job, table)?;
     Space::new(given, ranges, fixtures, states_orientation)
-        .map_err(|error| Failure::new(ErrorCode::Value, error.to_string()))
+        .map_err(|error| ErrorCode::Value.failure(error.to_string()))
 }
 
 fn fixtures(job: Option<&JobFile>, table: Option<&PlaceTable>) -> Answer<Vec<Fixture>> {

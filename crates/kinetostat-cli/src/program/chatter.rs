@@ -14,7 +14,7 @@ use crate::job::chatter::ChatterSetting;
 use crate::job::cut::along::stopped_or_within;
 use crate::job::machine::MachineSetup;
 use crate::job::setting::Setting;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::vibration::damping::{DampingArgs, words};
 use crate::vibration::stability::{damped, implausible, left_out_warning};
 use crate::vibration::subject;
@@ -55,15 +55,11 @@ impl<'a> Judging<'a> {
             "chatter needs",
         )?;
         let Some(cut) = &machine.cut else {
-            return Err(Failure::new(
-                ErrorCode::Missing,
-                "the job says nothing of the cut: for chatter [material], a cutter of the tool, and [stock] or [engagement] are needed",
+            return Err(ErrorCode::Missing.failure("the job says nothing of the cut: for chatter [material], a cutter of the tool, and [stock] or [engagement] are needed",
             ));
         };
         if machine.placement.orientation_follows {
-            return Err(Failure::new(
-                ErrorCode::ModelUnsuited,
-                "the tool of this machine turns as it moves: chatter along a program is for machines that hold their tool as the program says",
+            return Err(ErrorCode::ModelUnsuited.failure("the tool of this machine turns as it moves: chatter along a program is for machines that hold their tool as the program says",
             ));
         }
         Ok(Self {
@@ -188,7 +184,7 @@ pub(crate) fn refused(error: ProgramChatterError, setting: &Setting) -> Failure 
             setting.within(failure)
         }
         ProgramChatterError::Tool(failure) => stopped_or_within(failure, setting),
-        ProgramChatterError::Cancelled => Failure::new(ErrorCode::Stopped, error),
-        other => setting.within(Failure::new(ErrorCode::ProgramUnsuited, other)),
+        ProgramChatterError::Cancelled => ErrorCode::Stopped.failure(error),
+        other => setting.within(ErrorCode::ProgramUnsuited.failure(other)),
     }
 }

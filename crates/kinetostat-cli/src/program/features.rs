@@ -6,7 +6,7 @@ use kinetostat_machining::{
 };
 
 use crate::job::setting::Setting;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::layout::columns;
 
 /// Puts what was found of the features into a run; `allowed_mm` counts for those without a tolerance, and `uncut` are the lines of cuts
@@ -82,6 +82,6 @@ pub(crate) fn refuse_missed_features(features: &[FeatureResult], setting: &Setti
         .collect();
     match missed.is_empty() {
         true => Ok(()),
-        false => Err(setting.within(Failure::new(ErrorCode::ToleranceMissed, missed.join("\n")))),
+        false => Err(setting.within(ErrorCode::ToleranceMissed.failure(missed.join("\n")))),
     }
 }

@@ -18,7 +18,7 @@ use crate::program::flat_lines::WithSources;
 use crate::program::paper;
 use crate::program::points_table::{self, Listing};
 use crate::program::{path_vtk, points_parquet};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::json::json;
 use crate::ui::language::LanguageWord;
 use crate::ui::layout;
@@ -198,10 +198,7 @@ impl RunOutputs {
                 Language::French | Language::German => Ok(of.html()),
             };
             let page = page.map_err(|error| {
-                Failure::new(
-                    ErrorCode::Internal,
-                    format!("the report cannot be made: {error}"),
-                )
+                ErrorCode::Internal.failure(format!("the report cannot be made: {error}"))
             })?;
             self.files.fill(index, page.as_bytes())?;
         }

@@ -9,15 +9,13 @@ use kinetostat_report::Paper;
 
 use crate::files::origin;
 use crate::job::output_paths::OutputPaths;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Refuses a PDF that this build cannot write, before the long work begins.
 pub(crate) fn refuse_without_pdf() -> Answer<()> {
     match Paper::makes_pdf() {
         true => Ok(()),
-        false => Err(Failure::new(
-            ErrorCode::NotBuiltIn,
-            "this build makes no PDF: the command line does (kinetostat compensate job.toml --pdf report.pdf); an HTML report can be printed",
+        false => Err(ErrorCode::NotBuiltIn.failure("this build makes no PDF: the command line does (kinetostat compensate job.toml --pdf report.pdf); an HTML report can be printed",
         )),
     }
 }
@@ -26,7 +24,7 @@ pub(crate) fn refuse_without_pdf() -> Answer<()> {
 pub(crate) fn pdf(paper: &Paper<'_>) -> Answer<Vec<u8>> {
     paper
         .pdf()
-        .map_err(|error| Failure::new(ErrorCode::Internal, error.to_string()))
+        .map_err(|error| ErrorCode::Internal.failure(error.to_string()))
 }
 
 /// Written files with their hashes.

@@ -10,7 +10,7 @@ use kinetostat_model::Controller;
 use crate::program::flat_lines;
 use crate::program::joint_columns::{JointColumns, one_word};
 use crate::ui::csv_cell::{decimals, digits};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 
 /// Points whose lines are in memory at a time.
 const BLOCK: usize = 4096;
@@ -278,10 +278,7 @@ fn bytes(writer: csv::Writer<Vec<u8>>) -> Answer<Vec<u8>> {
 }
 
 fn failed(error: csv::Error) -> Failure {
-    Failure::new(
-        ErrorCode::Internal,
-        format!("the table of points cannot be made: {error}"),
-    )
+    ErrorCode::Internal.failure(format!("the table of points cannot be made: {error}"))
 }
 
 #[cfg(test)]

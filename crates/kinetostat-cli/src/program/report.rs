@@ -5,7 +5,7 @@ use kinetostat_machining::{RunResult, ToleranceResult};
 
 use crate::job::setting::Setting;
 use crate::program::flat_lines::WithSources;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::json::print_answer;
 use crate::ui::screen::{self, Stream};
 
@@ -15,7 +15,7 @@ pub(crate) fn refuse_missed_tolerance(
     setting: &Setting,
 ) -> Answer<()> {
     match tolerance.missed_text() {
-        Some(text) => Err(setting.within(Failure::new(ErrorCode::ToleranceMissed, text))),
+        Some(text) => Err(setting.within(ErrorCode::ToleranceMissed.failure(text))),
         None => Ok(()),
     }
 }
@@ -27,7 +27,7 @@ pub(crate) fn refuse_doubtful(result: &RunResult, setting: &Setting) -> Answer<(
             let costliest = result.assessment.assumptions.first();
             let costliest = costliest.map_or("", |assumption| &assumption.text);
             let text = format!("{text} The costliest one: {costliest}");
-            Err(setting.within(Failure::new(ErrorCode::Doubtful, text)))
+            Err(setting.within(ErrorCode::Doubtful.failure(text)))
         }
         None => Ok(()),
     }

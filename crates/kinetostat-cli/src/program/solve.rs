@@ -29,7 +29,7 @@ use crate::program::chatter::{Judging, put_chatter, refused};
 use crate::program::features::put_features;
 use crate::program::flat_lines::of_warnings;
 use crate::program::uncertainty::{self, PLACES, put_band};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
 
@@ -69,14 +69,12 @@ pub(crate) fn forces_of(
         return Ok(Some(forces.clone()));
     }
     if setting.robot.is_some() && (machine.measured.is_some() || machine.cut.is_some()) {
-        return Err(Failure::new(
-            ErrorCode::ProgramUnsuited,
-            "forces that are computed from the cut or measured are for programs in G-code, whose tool keeps its axis: compensate the G-code with --to krl, rapid or ls, or state the force of a robot's program under [load]",
+        return Err(ErrorCode::ProgramUnsuited.failure("forces that are computed from the cut or measured are for programs in G-code, whose tool keeps its axis: compensate the G-code with --to krl, rapid or ls, or state the force of a robot's program under [load]",
         ));
     }
     let turned = path.moves.iter().find(|motion| motion.tool_turn.is_some());
     if let Some(motion) = turned.filter(|_| machine.measured.is_some() || machine.cut.is_some()) {
-        return Err(setting.within(Failure::new(ErrorCode::ProgramUnsuited, format!(
+        return Err(setting.within(ErrorCode::ProgramUnsuited.failure(format!(
             "line {}: rotary axes turn the tool in the part: forces that are computed from the cut or measured are for programs whose tool keeps its axis; state the force under [load]",
             motion.line
         ))));
@@ -137,9 +135,7 @@ pub(crate) fn with_task<R>(
         if !path_stated {
             // The bounds of a tolerance; of a program without a scale no machine is outside.
             if !(1e-6..=10.0).contains(&usual_mm) {
-                return Err(Failure::new(
-                    ErrorCode::Value,
-                    format!(
+                return Err(ErrorCode::Value.failure(format!(
                         "the scale {}: with it the machine's tolerance of {} is {} of the program, where 0.000001 to 10 mm are allowed; correct the scale (--scale, or scale under [placement] in the job), or state the tolerance (--tolerance-um, or path_um under [tolerances])",
                         setting_of(machine.placement.scale),
                         length_setting(machine.usual_tolerance.0),
@@ -240,9 +236,7 @@ pub(crate) fn turned(
     let mut read = read_program(setting)?;
     if let Some(turn) = turn {
         if machine.measured.is_some() || machine.cut.is_some() {
-            return Err(Failure::new(
-                ErrorCode::ProgramUnsuited,
-                "forces that are computed from the cut or measured are for programs whose tool keeps its orientation: leave --free-turn out, or state the force under [load]",
+            return Err(ErrorCode::ProgramUnsuited.failure("forces that are computed from the cut or measured are for programs whose tool keeps its orientation: leave --free-turn out, or state the force under [load]",
             ));
         }
         read.go_along(turn.path.clone());

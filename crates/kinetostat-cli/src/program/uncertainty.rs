@@ -18,7 +18,7 @@ use crate::job::cut::along::stopped_or_within;
 use crate::job::machine::MachineSetup;
 use crate::job::setting::Setting;
 use crate::job::uncertain::Uncertainty;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::progress::Progress;
 
 /// About how many places of a program are solved for every machine.
@@ -34,9 +34,7 @@ pub(crate) fn read(
     machine: &MachineSetup,
 ) -> Answer<UncertaintyFile> {
     if machine.placement.orientation_follows {
-        return Err(Failure::new(
-            ErrorCode::ModelUnsuited,
-            "the tool of this machine turns as it moves: the band of the errors (--uncertain, [uncertain] in the job) is for machines that hold the orientation of their tool; `kinetostat tolerance` answers for single places",
+        return Err(ErrorCode::ModelUnsuited.failure("the tool of this machine turns as it moves: the band of the errors (--uncertain, [uncertain] in the job) is for machines that hold the orientation of their tool; `kinetostat tolerance` answers for single places",
         ));
     }
     let contained = !matches!(
@@ -44,9 +42,7 @@ pub(crate) fn read(
         WeightCorrection::NotStated | WeightCorrection::All
     );
     if contained && machine.mechanism.has_own_loads() {
-        return Err(Failure::new(
-            ErrorCode::Conflict,
-            format!(
+        return Err(ErrorCode::Conflict.failure(format!(
                 "weight is \"{}\": the band of the errors (--uncertain, [uncertain] in the job) would hold the part where the machine as drawn measured it, though every machine sags by its own amount there; give weight = \"all\" (--weight all) for the band, or leave the band out",
                 machine.weight.word()
             ),
@@ -105,7 +101,7 @@ fn varied(
     let mut factors = [1.0; CUTTING_PARTS.len()];
     factors[part] = factor;
     let unknown = |why: &str| {
-        setting.within(Failure::new(ErrorCode::Value, format!(
+        setting.within(ErrorCode::Value.failure(format!(
             "'{name}' is uncertain, and {why}: make all of the load uncertain (load = \"factor\")"
         )))
     };

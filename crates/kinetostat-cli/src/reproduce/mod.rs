@@ -14,7 +14,7 @@ use kinetostat_reproduce::{Entry, IDS, Item, ReproduceError, Status, all, html, 
 
 use crate::files::outputs::{Existing, Outputs};
 use crate::options::EXIT_CODES;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::json;
 use crate::ui::layout::{self, listed, wrapped};
 use crate::ui::numbers::number;
@@ -38,7 +38,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Answer<()> {
     };
     let entries = computed(args.id.as_deref())?;
     if let Some(page) = page {
-        let text = html(&entries).map_err(|error| Failure::new(ErrorCode::NoAnswer, error))?;
+        let text = html(&entries).map_err(|error| ErrorCode::NoAnswer.failure(error))?;
         outputs.fill(page, text.as_bytes())?;
     }
     let written = outputs.commit()?;
@@ -56,7 +56,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Answer<()> {
 pub(crate) fn computed(id: Option<&str>) -> Answer<Vec<Entry>> {
     let failure_of = |error: ReproduceError| match error {
         ReproduceError::Unknown(id) => unknown(&id),
-        error => Failure::new(ErrorCode::NoAnswer, error),
+        error => ErrorCode::NoAnswer.failure(error),
     };
     if let Some(id) = id {
         return Ok(vec![one(id).map_err(failure_of)?]);
@@ -84,13 +84,10 @@ fn unknown(id: &str) -> Failure {
             format!("; did you mean '{known}'?")
         });
     let list = wrapped(&IDS.join(" "), 2);
-    Failure::new(
-        ErrorCode::UnknownName,
-        format!(
-            "there is no entry '{id}'{nearest}\nThere are:\n{}",
-            list.trim_end()
-        ),
-    )
+    ErrorCode::UnknownName.failure(format!(
+        "there is no entry '{id}'{nearest}\nThere are:\n{}",
+        list.trim_end()
+    ))
 }
 
 /// Words of a status, as in the legend of the summary.

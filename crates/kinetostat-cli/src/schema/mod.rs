@@ -8,7 +8,7 @@ use schemars::generate::SchemaSettings;
 use schemars::{Schema, json_schema};
 
 use crate::options::EXIT_CODES;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::json::ErrorReport;
 use crate::ui::layout::listed;
 use crate::ui::result_form::ResultForm;
@@ -67,17 +67,13 @@ pub(crate) fn run(args: &SchemaArgs) -> Answer<()> {
     let found = COMMANDS.iter().find(|(command, _)| command == name);
     let (command, forms) = found.ok_or_else(|| {
         let names: Vec<&str> = COMMANDS.iter().map(|(command, _)| *command).collect();
-        Failure::new(
-            ErrorCode::UnknownName,
-            format!(
-                "'{name}' is no command with a result as JSON; there are: {}",
-                names.join(", ")
-            ),
-        )
+        ErrorCode::UnknownName.failure(format!(
+            "'{name}' is no command with a result as JSON; there are: {}",
+            names.join(", ")
+        ))
     })?;
     let text = serde_json::to_string_pretty(&document(command, forms));
-    let text =
-        text.map_err(|error| Failure::new(ErrorCode::Internal, format!("the schema: {error}")))?;
+    let text = text.map_err(|error| ErrorCode::Internal.failure(format!("the schema: {error}")))?;
     screen::print_bytes(format!("{text}\n").as_bytes())
 }
 

@@ -24,7 +24,7 @@ use crate::options::vector;
 use crate::place::query::{PlaceQuery, place_query_of};
 use crate::shares::answer::{SensitivitiesAnswer, SharesAnswer, StiffeningAnswer, parts};
 use crate::shares::arguments::SharesArgs;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::numbers::{short, triple};
 use crate::ui::result_form::ResultForm;
 
@@ -96,7 +96,7 @@ fn direction(args: &SharesArgs) -> Answer<(Wrench, String)> {
     let along = vector("--along", along)?;
     let length = along.norm();
     if length == 0.0 {
-        return Err(Failure::new(ErrorCode::Value, "--along has no length"));
+        return Err(ErrorCode::Value.failure("--along has no length"));
     }
     let words = format!("a force along {}", triple(along.into(), short));
     Ok((Wrench::new(along / length, Vector3::zeros()), words))
@@ -104,8 +104,8 @@ fn direction(args: &SharesArgs) -> Answer<(Wrench, String)> {
 
 fn refused(error: &SharesError) -> Failure {
     match error {
-        SharesError::NoDirection => Failure::new(ErrorCode::Value, error.to_string()),
-        _ => Failure::new(ErrorCode::NoAnswer, error),
+        SharesError::NoDirection => ErrorCode::Value.failure(error.to_string()),
+        _ => ErrorCode::NoAnswer.failure(error),
     }
 }
 
@@ -118,10 +118,9 @@ fn stiffening(
         return Ok(None);
     };
     if !(percent > 0.0 && percent < 100.0) {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!("--reduce-percent is {percent}; it lies between 0 and 100"),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "--reduce-percent is {percent}; it lies between 0 and 100"
+        )));
     }
     let target = 1.0 - 0.01 * percent;
     let found = stiffen(posture, direction, target, |_| 1.0).map_err(|e| refused(&e))?;
@@ -147,7 +146,6 @@ fn derivatives(
         wrench: query.wrench,
         direction,
     };
-    let found =
-        sensitivities(&task, &[]).map_err(|error| Failure::new(ErrorCode::UnknownName, error))?;
+    let found = sensitivities(&task, &[]).map_err(|error| ErrorCode::UnknownName.failure(error))?;
     Ok(SensitivitiesAnswer::of(&found))
 }

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::files::outputs::{Existing, Outputs, written};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::screen::{self, Stream};
 
 pub(crate) fn completions(args: &CompletionsArgs, mut command: clap::Command) -> Answer<()> {
@@ -24,10 +24,7 @@ pub(crate) fn man(args: &ManArgs, mut root: clap::Command) -> Answer<()> {
         clap_mangen::Man::new(command.clone())
             .render(&mut bytes)
             .map_err(|error| {
-                Failure::new(
-                    ErrorCode::Internal,
-                    format!("the manual page cannot be made: {error}"),
-                )
+                ErrorCode::Internal.failure(format!("the manual page cannot be made: {error}"))
             })?;
         Ok(bytes)
     };

@@ -29,7 +29,7 @@ use crate::place::query::{PlaceQuery, place_query_of};
 use crate::tolerance::answer::{ColumnResult, PlaceResults, ToleranceAnswer};
 use crate::tolerance::arguments::{Asked, ToleranceArgs};
 use crate::ui::csv_table::{cell, written};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::progress::Progress;
 use crate::ui::result_form::ResultForm;
 use crate::ui::{json, threads};
@@ -39,7 +39,7 @@ impl From<TaskError> for Failure {
         match error {
             TaskError::Model(error) => error.into(),
             TaskError::Core(error) => error.into(),
-            other => Self::new(ErrorCode::NoAnswer, other.to_string()),
+            other => ErrorCode::NoAnswer.failure(other),
         }
     }
 }
@@ -53,7 +53,7 @@ pub(crate) fn run(args: &ToleranceArgs) -> Answer<()> {
     model.require_stiffness()?;
     let queries = queries(args, &model, path.as_ref())?;
     let Some(first) = queries.first() else {
-        return Err(Failure::new(ErrorCode::Missing, "give a place with --at"));
+        return Err(ErrorCode::Missing.failure("give a place with --at"));
     };
     let study = Study::of(args, &model, &queries, &first.wrench)?;
     let inputs = path.iter().cloned().chain([args.uncertain.clone()]);
@@ -149,9 +149,7 @@ impl Study {
         let draws = drawn("--machines", count, args, machine.width())?;
         let for_sobol = match args.sobol {
             Some(_) if file.uncertainties.is_correlated() => {
-                return Err(Failure::new(
-                    ErrorCode::Conflict,
-                    "--sobol: parts of the variance belong to single numbers only where none are correlated; leave out the correlations, or --sobol",
+                return Err(ErrorCode::Conflict.failure("--sobol: parts of the variance belong to single numbers only where none are correlated; leave out the correlations, or --sobol",
                 ));
             }
             Some(count) => {
@@ -232,13 +230,12 @@ fn drawn(option: &str, count: usize, args: &ToleranceArgs, width: usize) -> Answ
     // The confidence interval of an index needs a few draws of each of the sequences.
     let least = if option == "--sobol" { 128 } else { 16 };
     if !(least..=MOST_DRAWS).contains(&count) {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!("{option} {count}: {least} to {MOST_DRAWS} can be drawn"),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "{option} {count}: {least} to {MOST_DRAWS} can be drawn"
+        )));
     }
     can_be_kept(count, width).map_err(|many| {
-        Failure::new(ErrorCode::Value, format!(
+        ErrorCode::Value.failure(format!(
             "{option} {count}: with all places and results {many}; take fewer places or machines, or ask for less with --only"
         ))
     })?;

@@ -8,7 +8,7 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use kinetostat_machining::{RunError, Watch};
 
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::host;
 use crate::ui::progress::Progress;
 use crate::ui::screen;
@@ -60,9 +60,7 @@ pub(crate) fn interruptible<R: Send + 'static>(
                 }
             }
             Err(RecvTimeoutError::Disconnected) => {
-                break Err(Failure::new(
-                    ErrorCode::Internal,
-                    "the search ended by itself, which it never should: please report this command and its model",
+                break Err(ErrorCode::Internal.failure("the search ended by itself, which it never should: please report this command and its model",
                 ));
             }
         }

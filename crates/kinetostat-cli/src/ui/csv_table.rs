@@ -1,6 +1,6 @@
 //! Tables for programs: full precision, as CSV.
 
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use kinetostat_diagnostic::ErrorCode;
 
 /// A number that reads back to the same bits; empty where there is none.
@@ -19,10 +19,7 @@ pub(crate) fn cell_if_any(x: Option<f64>) -> String {
 
 pub(crate) fn written(rows: &[Vec<String>]) -> Answer<Vec<u8>> {
     let failed = |error: csv::Error| {
-        Failure::new(
-            ErrorCode::Output,
-            format!("the table cannot be written: {error}"),
-        )
+        ErrorCode::Output.failure(format!("the table cannot be written: {error}"))
     };
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in rows {

@@ -43,6 +43,17 @@ fn exit_code(code: ErrorCode) -> Code {
     }
 }
 
+/// Makes a failure of a code and its message: `ErrorCode::Value.failure("...")`.
+pub(crate) trait Failing {
+    fn failure(self, message: impl Display) -> Failure;
+}
+
+impl Failing for ErrorCode {
+    fn failure(self, message: impl Display) -> Failure {
+        Failure::new(self, message)
+    }
+}
+
 /// Report before the program ends.
 #[derive(Clone, Debug)]
 pub(crate) struct Failure {
@@ -65,7 +76,7 @@ pub(crate) struct Failure {
 pub(crate) type Answer<T> = Result<T, Failure>;
 
 impl Failure {
-    pub(crate) fn new(kind: ErrorCode, message: impl Display) -> Self {
+    fn new(kind: ErrorCode, message: impl Display) -> Self {
         Self {
             code: exit_code(kind),
             plain: safe(&shortened(&message.to_string())),

@@ -7,7 +7,7 @@ use kinetostat_diagnostic::{Diagnostic, ErrorCode, Location};
 use kinetostat_formats::{MakeError, PathError, ProgramError, ProgramFault};
 use kinetostat_program::{MapError, ProgramError as GcodeError};
 
-use crate::ui::failure::Failure;
+use crate::ui::failure::{Failing, Failure};
 
 /// A fault of a file, one of several.
 pub(crate) trait Fault: Display {
@@ -124,7 +124,7 @@ impl Fault for MapError {
 
 /// All faults of a file, or the only one, as a failure; `places` is what they are: `lines`.
 pub(crate) fn failure_of<F: Fault>(code: ErrorCode, places: &str, first: &F, all: &[F]) -> Failure {
-    let failure = Failure::new(code, fault_list_text(places, first, all));
+    let failure = code.failure(fault_list_text(places, first, all));
     match all {
         [] => failure.with_faults([first.diagnostic()]),
         all => failure.with_faults(all.iter().map(Fault::diagnostic)),

@@ -6,7 +6,7 @@ use clap::ArgMatches;
 use clap::parser::ValueSource;
 use kinetostat_diagnostic::ErrorCode;
 
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Options that were given, as they are written.
 #[derive(Clone, Debug, Default)]
@@ -60,7 +60,7 @@ impl Given {
 
     fn refuse_first(&self, is_unused: impl Fn(&str) -> bool, why: &str) -> Answer<()> {
         match self.options.iter().find(|option| is_unused(option)) {
-            Some(option) => Err(Failure::new(ErrorCode::Unused, format!("{option} {why}"))),
+            Some(option) => Err(ErrorCode::Unused.failure(format!("{option} {why}"))),
             None => Ok(()),
         }
     }

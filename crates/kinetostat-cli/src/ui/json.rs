@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::ser::{Formatter, PrettyFormatter, Serializer};
 
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::screen::{self, Stream};
 
 /// A result as JSON with a final newline.
@@ -15,17 +15,11 @@ pub(crate) fn json<T: Serialize + JsonSchema>(value: &T) -> Answer<String> {
     let mut bytes = Vec::new();
     let mut serializer = Serializer::with_formatter(&mut bytes, UnsignedZero::default());
     value.serialize(&mut serializer).map_err(|error| {
-        Failure::new(
-            ErrorCode::Internal,
-            format!("the result cannot be written as JSON: {error}"),
-        )
+        ErrorCode::Internal.failure(format!("the result cannot be written as JSON: {error}"))
     })?;
     bytes.push(b'\n');
     String::from_utf8(bytes).map_err(|error| {
-        Failure::new(
-            ErrorCode::Internal,
-            format!("the result cannot be written as JSON: {error}"),
-        )
+        ErrorCode::Internal.failure(format!("the result cannot be written as JSON: {error}"))
     })
 }
 

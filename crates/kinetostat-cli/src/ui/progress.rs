@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use kinetostat_machining::Watch;
 use kinetostat_program::Monitor;
 
-use crate::ui::failure::{Answer, Code, Failure, STOPPED};
+use crate::ui::failure::{Answer, Code, Failing, STOPPED};
 use crate::ui::host::{self, Host};
 use crate::ui::screen::{self, Stream};
 
@@ -28,7 +28,7 @@ pub(crate) fn catch_interrupts(remove_temporary: fn()) {
         STOP.store(true, Ordering::SeqCst);
         std::thread::sleep(PATIENCE);
         remove_temporary();
-        screen::complain(&Failure::new(ErrorCode::Stopped, STOPPED));
+        screen::complain(&ErrorCode::Stopped.failure(STOPPED));
         std::process::exit(Code::Stopped as i32);
     };
     // A file that outgrows its limit (`ulimit -f`) is then an error of writing, and temporary files are removed.
@@ -215,7 +215,7 @@ fn stopped(host: Option<&Host>) -> bool {
 /// That it was stopped.
 pub(crate) fn still_wanted() -> Answer<()> {
     match host::current() {
-        Some(host) if host.watch().cancelled() => Err(Failure::new(ErrorCode::Stopped, STOPPED)),
+        Some(host) if host.watch().cancelled() => Err(ErrorCode::Stopped.failure(STOPPED)),
         _ => Ok(()),
     }
 }

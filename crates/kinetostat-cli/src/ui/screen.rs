@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::error::ErrorKind as ClapKind;
 use kinetostat_model::shortened;
 
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::host;
 pub(crate) use crate::ui::host::Stream;
 use crate::ui::safe_text::safe;
@@ -62,13 +62,10 @@ fn unless_closed(result: std::io::Result<()>) -> Answer<()> {
     match result {
         // The reader has seen enough (`| head`): that is no failure.
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
-        Err(error) => Err(Failure::new(
-            ErrorCode::Output,
-            format!(
-                "the standard output cannot be written: {}",
-                crate::ui::system_error::description(&error)
-            ),
-        )),
+        Err(error) => Err(ErrorCode::Output.failure(format!(
+            "the standard output cannot be written: {}",
+            crate::ui::system_error::description(&error)
+        ))),
         Ok(()) => Ok(()),
     }
 }

@@ -3,7 +3,7 @@
 use kinetostat_diagnostic::ErrorCode;
 use std::error::Error;
 
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::host;
 
 /// Threads for each core, at most: more bring nothing, and each takes address space that its start may lack, which ends the process.
@@ -22,18 +22,16 @@ pub(crate) fn in_threads<R: Send>(
         // already is no error.
         let started = rayon::ThreadPoolBuilder::new().build_global();
         return match started.as_ref().map_err(|error| (error, error.source())) {
-            Err((_, Some(cause))) => Err(Failure::new(
-                ErrorCode::System,
-                format!("threads for all cores cannot be started: {cause}; --threads 1 needs one"),
-            )),
+            Err((_, Some(cause))) => Err(ErrorCode::System.failure(format!(
+                "threads for all cores cannot be started: {cause}; --threads 1 needs one"
+            ))),
             _ => Ok(work()),
         };
     };
     if !(1..=1024).contains(&count) {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!("--threads {count}: 1 to 1024 threads can be used"),
-        ));
+        return Err(
+            ErrorCode::Value.failure(format!("--threads {count}: 1 to 1024 threads can be used"))
+        );
     }
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let count = count.min((MOST_PER_CORE * cores).max(ALWAYS));
@@ -47,8 +45,5 @@ pub(crate) fn in_threads<R: Send>(
 
 /// Threads that the system does not give.
 pub(crate) fn not_started(count: usize, error: &dyn Error) -> Failure {
-    Failure::new(
-        ErrorCode::System,
-        format!("{count} threads cannot be started: {error}"),
-    )
+    ErrorCode::System.failure(format!("{count} threads cannot be started: {error}"))
 }

@@ -35,7 +35,7 @@ use crate::job::setting::{Setting, program_path, setting};
 use crate::long::which::say_as_a_whole;
 use crate::program::features::put_features;
 use crate::program::report::refuse_doubtful;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::json;
 use crate::ui::language::LanguageWord;
 use crate::ui::result_form::ResultForm;
@@ -153,7 +153,9 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         true => refuse_doubtful(&assessed, &verified),
         false => {
             let faults = answer.faults().join("\n");
-            Err(Failure::new(ErrorCode::ToleranceMissed, faults).within(&verified.program_name))
+            Err(ErrorCode::ToleranceMissed
+                .failure(faults)
+                .within(&verified.program_name))
         }
     }
 }
@@ -172,10 +174,7 @@ fn refuse_what_says_nothing(given: &ProgramArgs) -> Answer<()> {
     } else {
         return Ok(());
     };
-    Err(Failure::new(
-        ErrorCode::Unused,
-        format!("verify has no use for {what}"),
-    ))
+    Err(ErrorCode::Unused.failure(format!("verify has no use for {what}")))
 }
 
 /// A program and how it is read.

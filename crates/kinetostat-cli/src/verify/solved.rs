@@ -11,7 +11,7 @@ use crate::job::reading::work_offset;
 use crate::job::setting::Setting;
 use crate::program::aim::Aim;
 use crate::program::solve::{forces_of, with_task};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
 use crate::verify::answer::source_of;
@@ -51,8 +51,7 @@ pub(crate) fn solved(
     let read = read_program(original)?;
     let other = read_program(verified)?;
     if !other.path().moves.iter().any(is_cut) {
-        return Err(verified.within(Failure::new(ErrorCode::ProgramUnsuited,
-            "the program has no move at feed that begins at a place it states, so that there is nothing to verify: name the program that was compensated, and the original as --against",
+        return Err(verified.within(ErrorCode::ProgramUnsuited.failure("the program has no move at feed that begins at a place it states, so that there is nothing to verify: name the program that was compensated, and the original as --against",
         )));
     }
     let progress = Progress::new();
@@ -163,7 +162,7 @@ impl Both<'_> {
             true => Failure::from(error),
             false => {
                 faults.push(error.to_string());
-                Failure::new(ErrorCode::ToleranceMissed, faults.join("\n"))
+                ErrorCode::ToleranceMissed.failure(faults.join("\n"))
             }
         })
     }

@@ -5,7 +5,7 @@ use kinetostat_diagnostic::ErrorCode;
 use kinetostat_dynamics::Damping;
 
 use crate::options::number;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 
 /// How vibrations are damped: one law, by name; without one that of the model.
 #[derive(Debug, Default, Args)]
@@ -50,16 +50,15 @@ impl DampingArgs {
             Damping::Viscous(self.viscous.iter().map(read).collect::<Answer<_>>()?)
         };
         law.check()
-            .map_err(|error| Failure::new(ErrorCode::Value, error))?;
+            .map_err(|error| ErrorCode::Value.failure(error))?;
         Ok(law)
     }
 }
 
 fn wrong_damper(text: &str) -> Failure {
-    Failure::new(
-        ErrorCode::Value,
-        format!("--viscous {text}: a joint and a number are needed, as in joint_1=900"),
-    )
+    ErrorCode::Value.failure(format!(
+        "--viscous {text}: a joint and a number are needed, as in joint_1=900"
+    ))
 }
 
 /// The law in words.

@@ -3,7 +3,7 @@
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_dynamics::Damping;
 
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// A number of a law.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,7 +55,7 @@ pub(crate) fn named(law: &Damping, path: &str) -> Answer<DampingNumber> {
     let known: Vec<String> = all.iter().map(|own| own.path.clone()).collect();
     let found = all.into_iter().find(|own| own.path == path);
     found.ok_or_else(|| {
-        Failure::new(ErrorCode::UnknownName, match known.is_empty() {
+        ErrorCode::UnknownName.failure(match known.is_empty() {
             true => format!(
                 "--scale {path}: there is no damping to scale; give a first value, as with --damping 0.03"
             ),

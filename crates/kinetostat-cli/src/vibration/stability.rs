@@ -5,7 +5,7 @@ use kinetostat_diagnostic::ErrorCode;
 use kinetostat_dynamics::Damping;
 use kinetostat_machining::{Warning, WarningCode};
 
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::number;
 use crate::vibration::damping::DampingArgs;
 
@@ -16,9 +16,7 @@ const GREAT: f64 = 0.5;
 /// number) says so.
 pub(crate) fn damped(args: &DampingArgs, of_model: &Damping, who: &str) -> Answer<Damping> {
     match args.law(of_model)? {
-        Damping::Undamped => Err(Failure::new(
-            ErrorCode::Missing,
-            format!(
+        Damping::Undamped => Err(ErrorCode::Missing.failure(format!(
                 "{who} damping: without it the smallest cut chatters at every speed. Give measured ratios here or in the model ([damping]), or for a first look --damping 0.03"
             ),
         )),

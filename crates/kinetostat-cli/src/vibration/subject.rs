@@ -15,7 +15,7 @@ use crate::files::input_files::InputFiles;
 use crate::job::tool_mass::{MASSES_KG, ToolMass, carrying};
 use crate::options::vector;
 use crate::place::query::{PlaceQuery, place_query_of};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::vibration::arguments::VibrationArgs;
 
 /// The place and the load that are asked for.
@@ -24,10 +24,9 @@ pub(crate) fn query(args: &VibrationArgs) -> Answer<PlaceQuery> {
     read.require_stiffness()?;
     if let Some(mass_kg) = args.tool_mass_kg {
         if !MASSES_KG.contains(&mass_kg) {
-            return Err(Failure::new(
-                ErrorCode::Value,
-                format!("--tool-mass-kg is {mass_kg}; the mass of a tool is from 0.001 to 5000 kg"),
-            ));
+            return Err(ErrorCode::Value.failure(format!(
+                "--tool-mass-kg is {mass_kg}; the mass of a tool is from 0.001 to 5000 kg"
+            )));
         }
         let halfway = Vector3::z() * (0.5 * args.tool_length_mm.unwrap_or(0.0));
         let stated = args.tool_centre_of_mass_mm.as_deref();
@@ -93,14 +92,12 @@ fn line_of(error: &Error, query: &PlaceQuery) -> Option<String> {
 pub(crate) fn refused(error: Error) -> Failure {
     match error {
         Error::Statics(error) => error.into(),
-        Error::NoMass(name) => Failure::new(
-            ErrorCode::ModelUnsuited,
-            format!(
+        Error::NoMass(name) => ErrorCode::ModelUnsuited.failure(format!(
                 "'{name}' has no mass anywhere, so it has no frequencies. Add masses to the model file: {{ body = \"upper arm mass\", mass_kg = 270, centre_of_mass_mm = [0, 0, -625], inertia_kg_m2 = [[..], [..], [..]] }} behind a joint or link of a chain, or mass_kg, centre_of_mass_mm and inertia_kg_m2 of a moving body (platform)"
             ),
         ),
-        Error::NotSolved(_) => Failure::new(ErrorCode::NoAnswer, error),
-        _ => Failure::new(ErrorCode::ModelUnsuited, error),
+        Error::NotSolved(_) => ErrorCode::NoAnswer.failure(error),
+        _ => ErrorCode::ModelUnsuited.failure(error),
     }
 }
 

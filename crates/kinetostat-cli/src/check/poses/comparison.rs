@@ -17,7 +17,7 @@ use serde::Serialize;
 use crate::check::poses::pose_row::PoseRow;
 use crate::machine::units::unit;
 use crate::place::joints::{self, Named};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::{fixed, short, triple};
 
 /// The answer, stable names with units.
@@ -136,7 +136,7 @@ pub(crate) fn compare(
 fn findings(controller: &ControllerCoordinates<'_>, rows: &[PoseRow]) -> Answer<Vec<PoseFinding>> {
     let each = rows.iter().map(|row| {
         let computed = controller.pose(&row.measured.joints).map_err(|reason| {
-            Failure::new(ErrorCode::FileForm, format!("line {}: {reason}", row.line))
+            ErrorCode::FileForm.failure(format!("line {}: {reason}", row.line))
         })?;
         let off = difference(&row.measured, &computed);
         Ok(PoseFinding {

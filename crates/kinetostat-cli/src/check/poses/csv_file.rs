@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use crate::check::poses::pose_row::{MOST, PoseRow};
 use crate::place::joints::{Named, NoQuantity, quantity};
 use crate::place::orientation::{self, CONVENTIONS, NoOrientation};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::spelling::nearest;
 
 /// Content of a column of a table.
@@ -44,9 +44,8 @@ pub(crate) fn from_csv(text: &str, names: &[Named]) -> Answer<Vec<PoseRow>> {
     for record in reader.records() {
         let record = record.map_err(|e| unreadable(&e))?;
         let line = record.position().map_or(0, |p| p.line() as usize);
-        let row = cells(&record, &columns, &header, names, rows.len() + 1).map_err(|reason| {
-            Failure::new(ErrorCode::FileForm, format!("line {line}: {reason}"))
-        })?;
+        let row = cells(&record, &columns, &header, names, rows.len() + 1)
+            .map_err(|reason| ErrorCode::FileForm.failure(format!("line {line}: {reason}")))?;
         rows.push(PoseRow { line, ..row });
         if rows.len() > MOST {
             break;
@@ -57,15 +56,12 @@ pub(crate) fn from_csv(text: &str, names: &[Named]) -> Answer<Vec<PoseRow>> {
 
 fn unreadable(error: &csv::Error) -> Failure {
     let line = error.position().map_or(0, csv::Position::line);
-    Failure::new(
-        ErrorCode::FileForm,
-        match error.kind() {
-            csv::ErrorKind::UnequalLengths {
-                expected_len, len, ..
-            } => format!("line {line}: {len} cells, but the table has {expected_len} columns"),
-            _ => format!("no table: {error}"),
-        },
-    )
+    ErrorCode::FileForm.failure(match error.kind() {
+        csv::ErrorKind::UnequalLengths {
+            expected_len, len, ..
+        } => format!("line {line}: {len} cells, but the table has {expected_len} columns"),
+        _ => format!("no table: {error}"),
+    })
 }
 
 fn column(head: &str, names: &[Named]) -> Answer<Column> {
@@ -118,9 +114,7 @@ fn column(head: &str, names: &[Named]) -> Answer<Column> {
         .any(|t| plain == *t || plain == format!("{t}_deg") || plain == format!("{t}_rad"))
         || plain.starts_with('q');
     if angles {
-        return Err(Failure::new(
-            ErrorCode::FileForm,
-            format!(
+        return Err(ErrorCode::FileForm.failure(format!(
                 "the column '{head}' holds an orientation whose convention is not named: the same three angles mean a dozen different rotations. Name it: one column with all numbers in a cell, as in a_b_c_kuka_deg with 0 90 0, or a_b_c_kuka_deg_1, _2, _3. There are {}",
                 CONVENTIONS.join(", ")
             ),
@@ -129,9 +123,7 @@ fn column(head: &str, names: &[Named]) -> Answer<Column> {
     let mut known: Vec<&str> = names.iter().map(|n| n.0.as_str()).collect();
     known.extend(["pose", "x_mm", "y_mm", "z_mm"]);
     let near = nearest(head, &known).map_or_else(String::new, |n| format!("did you mean '{n}'? "));
-    Err(Failure::new(
-        ErrorCode::FileForm,
-        format!(
+    Err(ErrorCode::FileForm.failure(format!(
             "the column '{head}' is not known. {near}There are the joints {}; x_mm, y_mm, z_mm; and orientations by their convention",
             known[..names.len()].join(", ")
         ),
@@ -140,12 +132,7 @@ fn column(head: &str, names: &[Named]) -> Answer<Column> {
 
 /// Requires every joint and every coordinate once, one orientation at most.
 fn complete(columns: &[Column], names: &[Named]) -> Answer<()> {
-    let twice = |what: &str| {
-        Failure::new(
-            ErrorCode::FileForm,
-            format!("{what} appears in two columns"),
-        )
-    };
+    let twice = |what: &str| ErrorCode::FileForm.failure(format!("{what} appears in two columns"));
     for (i, (name, ..)) in names.iter().enumerate() {
         match columns
             .iter()
@@ -154,10 +141,8 @@ fn complete(columns: &[Column], names: &[Named]) -> Answer<()> {
         {
             1 => {}
             0 => {
-                return Err(Failure::new(
-                    ErrorCode::FileForm,
-                    format!("there is no column for the joint '{name}'"),
-                ));
+                return Err(ErrorCode::FileForm
+                    .failure(format!("there is no column for the joint '{name}'")));
             }
             _ => return Err(twice(&format!("the joint '{name}'"))),
         }
@@ -170,12 +155,9 @@ fn complete(columns: &[Column], names: &[Named]) -> Answer<()> {
         {
             1 => {}
             0 => {
-                return Err(Failure::new(
-                    ErrorCode::FileForm,
-                    format!(
-                        "there is no column {axis}_mm: the measured place of the tool's tip in the base"
-                    ),
-                ));
+                return Err(ErrorCode::FileForm.failure(format!(
+                    "there is no column {axis}_mm: the measured place of the tool's tip in the base"
+                )));
             }
             _ => return Err(twice(axis)),
         }
@@ -190,19 +172,17 @@ fn complete(columns: &[Column], names: &[Named]) -> Answer<()> {
     }
     if found.len() > 1 {
         let list: Vec<&str> = found.keys().copied().collect();
-        return Err(Failure::new(
-            ErrorCode::FileForm,
-            format!("the orientation is given twice: {}", list.join(" and ")),
-        ));
+        return Err(ErrorCode::FileForm.failure(format!(
+            "the orientation is given twice: {}",
+            list.join(" and ")
+        )));
     }
     for (name, mut parts) in found {
         parts.sort_unstable();
         let most = if name.starts_with("quaternion") { 4 } else { 3 };
         let all: Vec<Option<usize>> = (0..most).map(Some).collect();
         if parts != [None] && parts != all {
-            return Err(Failure::new(
-                ErrorCode::FileForm,
-                format!(
+            return Err(ErrorCode::FileForm.failure(format!(
                     "the columns of {name} are not complete: write {name}_1 to {name}_{most}, or one column {name}"
                 ),
             ));

@@ -25,7 +25,7 @@ use crate::files::csv_text::with_decimal_points;
 use crate::files::input_files::InputFiles;
 use crate::job::source::Source;
 use crate::place::joints::Named;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::json;
 use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::{fixed, short, triple};
@@ -39,12 +39,9 @@ pub(crate) fn run(
     json: bool,
 ) -> Answer<()> {
     if !(tolerance_mm > 0.0 && tolerance_mm <= 1e4) {
-        return Err(Failure::new(
-            ErrorCode::Value,
-            format!(
-                "--pose-tolerance-mm is {tolerance_mm}; a length from above 0 to 10000 mm is needed"
-            ),
-        ));
+        return Err(ErrorCode::Value.failure(format!(
+            "--pose-tolerance-mm is {tolerance_mm}; a length from above 0 to 10000 mm is needed"
+        )));
     }
     let names = axes(model);
     let rows = read(&InputFiles::default(), file, &names)?;
@@ -61,10 +58,7 @@ pub(crate) fn read(files: &InputFiles, path: &Path, names: &[Named]) -> Answer<V
     let bytes = files.bytes("file of poses", path)?;
     let name = path.display().to_string();
     let text = String::from_utf8(bytes).map_err(|_| {
-        Failure::new(
-            ErrorCode::FileNotRead,
-            format!("{name}: not UTF-8 text; save it as UTF-8"),
-        )
+        ErrorCode::FileNotRead.failure(format!("{name}: not UTF-8 text; save it as UTF-8"))
     })?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
     let toml = path
@@ -75,16 +69,15 @@ pub(crate) fn read(files: &InputFiles, path: &Path, names: &[Named]) -> Answer<V
         false => from_csv(&with_decimal_points(text), names).map_err(|f| f.within(&name))?,
     };
     if rows.is_empty() {
-        return Err(Failure::new(
-            ErrorCode::FileForm,
-            format!("{name}: there is no pose in it; write one row for each"),
-        ));
+        return Err(ErrorCode::FileForm.failure(format!(
+            "{name}: there is no pose in it; write one row for each"
+        )));
     }
     if rows.len() > MOST {
-        return Err(Failure::new(
-            ErrorCode::FileForm,
-            format!("{name}: {} poses, at most {MOST} are read", rows.len()),
-        ));
+        return Err(ErrorCode::FileForm.failure(format!(
+            "{name}: {} poses, at most {MOST} are read",
+            rows.len()
+        )));
     }
     Ok(rows)
 }
@@ -233,13 +226,10 @@ fn from_toml(file: &str, text: &str, names: &[Named]) -> Answer<Vec<PoseRow>> {
         "write schema = 1 and, for each pose, [[pose]] with joints = { ... } and tool = { position_mm = [...], ... }",
     )?;
     if document.schema != 1 {
-        return Err(Failure::new(
-            ErrorCode::FileForm,
-            format!(
-                "{file}: this is version {} of the format; version 1 is read here",
-                document.schema
-            ),
-        ));
+        return Err(ErrorCode::FileForm.failure(format!(
+            "{file}: this is version {} of the format; version 1 is read here",
+            document.schema
+        )));
     }
     let mut rows = Vec::new();
     for (number, entry) in document.pose.iter().enumerate() {

@@ -19,7 +19,7 @@ use crate::force::fit_arguments::ActsOnWord;
 use crate::force::refusal::{refused, within};
 use crate::force::text::way_text;
 use crate::force::tool::CutTool;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Places at which the lines of the drawing are computed, and how far they go beyond the largest feed.
 const PLACES: usize = 60;
@@ -41,9 +41,7 @@ pub(super) fn answer_of(
 ) -> Answer<FitAnswer> {
     let straight = straight(&tool.tool, &args.cut)?;
     if tool.tool.shape() != Shape::Flat {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            format!(
+        return Err(ErrorCode::Unused.failure(format!(
                 "--fit: the closed form of the mean force is that of a flat cutter, and this is a {} one; measure with a flat cutter: the coefficients hold for the others too",
                 tool.tool.shape().word()
             ),

@@ -23,7 +23,7 @@ pub(crate) use crate::force::fit::answer::FitAnswer;
 use crate::force::fit::answer_of::answer_of;
 use crate::force::tool::tool_of;
 use crate::ui::csv_table::{cell, cell_if_any, written};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::{given, number};
 
 pub(crate) fn run(files: &InputFiles, args: &ForceArgs, means: &Path) -> Answer<()> {
@@ -39,13 +39,10 @@ pub(crate) fn run(files: &InputFiles, args: &ForceArgs, means: &Path) -> Answer<
     let mut answer = answer_of(args, &tool, (means, &with_decimal_points(&text)))?;
     if let Some(claim) = material {
         let toml = answer.material_toml.as_deref().ok_or_else(|| {
-            Failure::new(
-                ErrorCode::Unused,
-                format!(
-                    "--out-material: {}; leave the option out to see the whole fit",
-                    answer.no_material.as_deref().unwrap_or("there is none")
-                ),
-            )
+            ErrorCode::Unused.failure(format!(
+                "--out-material: {}; leave the option out to see the whole fit",
+                answer.no_material.as_deref().unwrap_or("there is none")
+            ))
         })?;
         claimed.fill(claim, toml.as_bytes())?;
     }

@@ -17,7 +17,7 @@ use crate::job::cut::question::{CutSetup, MEASURED, not_typed_too};
 use crate::job::cut_tables::MeasuredTable;
 use crate::job::job_file::JobFile;
 use crate::job::setting::Setting;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 
 /// The forces along a program, where the job asks for them.
 pub(crate) fn forces(
@@ -44,7 +44,7 @@ pub(crate) fn measured(
 ) -> Answer<ForceAlongPath> {
     let along = setup.forces.along(path, watch);
     along.map_err(|failure| match failure {
-        CutFailure::Log { .. } => Failure::new(ErrorCode::FileForm, failure).within(&setup.name),
+        CutFailure::Log { .. } => ErrorCode::FileForm.failure(failure).within(&setup.name),
         _ => stopped_or_within(failure, setting),
     })
 }
@@ -52,8 +52,8 @@ pub(crate) fn measured(
 /// Converts a missing cutting force into a failure of the command.
 pub(crate) fn stopped_or_within(failure: CutFailure, setting: &Setting) -> Failure {
     match failure {
-        CutFailure::Cancelled => Failure::new(ErrorCode::Stopped, failure),
-        _ => setting.within(Failure::new(ErrorCode::ProgramUnsuited, failure)),
+        CutFailure::Cancelled => ErrorCode::Stopped.failure(failure),
+        _ => setting.within(ErrorCode::ProgramUnsuited.failure(failure)),
     }
 }
 
@@ -82,7 +82,7 @@ pub(crate) fn refuse_what_breaks_the_tool(
         _ => "write a smaller feed or a higher speed, or correct the tool",
     };
     let what = format!("line {}: {}; {help}", found.line, text_of(found));
-    Err(setting.within(Failure::new(ErrorCode::ProgramUnsuited, what)))
+    Err(setting.within(ErrorCode::ProgramUnsuited.failure(what)))
 }
 
 /// Text of the worst line, with the number of lines.
@@ -208,7 +208,7 @@ pub(crate) fn measured_setup(
     let mut read = FilesOfCut::default();
     let (text, name) = read.text(files, j, "log of forces", &t.file)?;
     let log = ForceLog::read(&name, &with_decimal_points(&text))
-        .map_err(|error| Failure::new(ErrorCode::ProgramUnsuited, error))?;
+        .map_err(|error| ErrorCode::ProgramUnsuited.failure(error))?;
     drop(text);
     let (smooth, air) = by_its_columns(j, t, log.by())?;
     let mut forces = MeasuredForces::new(log, t.acts_on);

@@ -14,7 +14,7 @@ use crate::job::cut_tables::CuttersTable;
 use crate::job::job_file::JobFile;
 use crate::job::setting::program_path;
 use crate::job::units_word::UnitsWord;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::short;
 
 /// The edges of a tool, and what is known beside them.
@@ -78,7 +78,7 @@ pub(crate) fn cutters(
         stands_out_of_its_length(j, number, cutter, entry.as_ref().ok())?;
         entry
             .map(|entry| Cutter::of_entry(number, &entry))
-            .map_err(|error| Failure::new(ErrorCode::FileForm, error))
+            .map_err(|error| ErrorCode::FileForm.failure(error))
     };
     let one = j.job.tool.cutter.iter().map(|cutter| read(None, cutter));
     let numbered = j.job.tools.iter().filter_map(|tool| {
@@ -169,7 +169,7 @@ pub(crate) fn called<'t>(
     table: &'t ToolTable,
 ) -> Answer<Vec<(u32, Option<&'t ToolEntry>)>> {
     let program = Program::read(files.bytes("program", program)?)
-        .map_err(|error| Failure::new(ErrorCode::FileForm, error))?;
+        .map_err(|error| ErrorCode::FileForm.failure(error))?;
     let numbers = program.tool_numbers().into_iter();
     Ok(numbers
         .map(|number| (number, table.tool(number).ok()))
@@ -185,8 +185,7 @@ fn table_of(
 ) -> Answer<ToolTable> {
     let (text, name) = files_read.text(files, j, "table of tools", &table.file)?;
     let Some(machine) = &table.tool_tbl else {
-        return ToolTable::read(&name, &text)
-            .map_err(|error| Failure::new(ErrorCode::FileForm, error));
+        return ToolTable::read(&name, &text).map_err(|error| ErrorCode::FileForm.failure(error));
     };
     let (bytes, of_machine) = files_read.bytes(files, j, "table of the machine", machine)?;
     let unit = match table.tool_tbl_unit {
@@ -194,7 +193,6 @@ fn table_of(
         Some(UnitsWord::Mm) | None => MachineUnit::Millimetres,
     };
     let machine = LinuxCncTable::read(&of_machine, &bytes, unit)
-        .map_err(|error| Failure::new(ErrorCode::FileForm, error))?;
-    ToolTable::completing(&name, &text, machine)
-        .map_err(|error| Failure::new(ErrorCode::FileForm, error))
+        .map_err(|error| ErrorCode::FileForm.failure(error))?;
+    ToolTable::completing(&name, &text, machine).map_err(|error| ErrorCode::FileForm.failure(error))
 }

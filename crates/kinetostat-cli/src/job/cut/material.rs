@@ -12,7 +12,7 @@ use crate::job::cut::files_of_cut::FilesOfCut;
 use crate::job::cut::refused::refused;
 use crate::job::cut_tables::MaterialTable;
 use crate::job::job_file::JobFile;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// The material, how it is cut, and what was assumed.
 pub(crate) struct MaterialSetup {
@@ -90,8 +90,7 @@ pub(crate) fn material(
     if let Some(file) = &table.file {
         let (text, name) = read.text(files, job, "file of materials", file)?;
         known.with(
-            Materials::read(&name, &text)
-                .map_err(|error| Failure::new(ErrorCode::FileForm, error))?,
+            Materials::read(&name, &text).map_err(|error| ErrorCode::FileForm.failure(error))?,
         );
     }
     let wrong = |error: CutError| refused(job, &table.name, &error);

@@ -18,7 +18,7 @@ use crate::job::cut::stock::stock;
 use crate::job::cut_tables::{EngagementTable, MaterialTable, SpindleTable};
 use crate::job::format::LoadTable;
 use crate::job::job_file::JobFile;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::numbers::short;
 
 /// The cuts of a job.
@@ -361,9 +361,7 @@ pub(super) fn not_typed_too<T>(
         ));
     }
     if flags.force.is_some() || flags.moment.is_some() || flags.milling.is_some() {
-        return Err(Failure::new(
-            ErrorCode::Conflict,
-            format!(
+        return Err(ErrorCode::Conflict.failure(format!(
                 "the load is given twice: on the command line, and by {} of the job file; keep one of them",
                 other.whose
             ),

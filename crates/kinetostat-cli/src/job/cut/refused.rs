@@ -5,12 +5,12 @@ use kinetostat_diagnostic::ErrorCode;
 use serde_spanned::Spanned;
 
 use crate::job::job_file::JobFile;
-use crate::ui::failure::Failure;
+use crate::ui::failure::{Failing, Failure};
 
 /// An error of the library where the job states what it is about; in a file of its own, it names that.
 pub(crate) fn refused<T>(job: &JobFile, at: &Spanned<T>, error: &CutError) -> Failure {
     if error.file.is_some() {
-        return Failure::new(ErrorCode::Value, error);
+        return ErrorCode::Value.failure(error);
     }
     let help = match error.expected.starts_with("did you mean") {
         true => error.expected.clone(),

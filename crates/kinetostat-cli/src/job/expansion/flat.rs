@@ -8,7 +8,7 @@ use kinetostat_program::{Expanded, ProgramError, expand_or_faults};
 
 use crate::job::expansion::folders::{Folders, SubprogramFile};
 use crate::job::expansion::settings::ExpandSettings;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::fault_list::failure_of;
 
 /// A program that was run once and written flat.
@@ -33,7 +33,9 @@ pub(crate) fn flattened(
     let files = folders.into_read();
     let expanded = done.map_err(|all| {
         let failure = match all.as_slice() {
-            [] => Failure::new(ErrorCode::ProgramRefused, "the program is refused").within(name),
+            [] => ErrorCode::ProgramRefused
+                .failure("the program is refused")
+                .within(name),
             [only] => refused(only, name, &files),
             [first, ..] => failure_of(ErrorCode::ProgramRefused, "lines", first, &all).within(name),
         };
@@ -72,10 +74,11 @@ fn refused(error: &ProgramError, program: &str, files: &[SubprogramFile]) -> Fai
             let file = file_name(name, program, files);
             let mut own = error.clone();
             reason.clone_into(&mut own.reason);
-            Failure::new(ErrorCode::ProgramRefused, own)
+            ErrorCode::ProgramRefused
+                .failure(own)
                 .within(&file)
                 .within(&format!("{program}, in the subprogram"))
         }
-        None => Failure::new(ErrorCode::ProgramRefused, error).within(program),
+        None => ErrorCode::ProgramRefused.failure(error).within(program),
     }
 }

@@ -11,7 +11,7 @@ use crate::job::expand_table::NumberedTable;
 use crate::job::expansion::arguments::{ExpandFlags, ExpansionArgs};
 use crate::job::job_file::JobFile;
 use crate::job::values::NotAllowed;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Settings of an expansion.
 pub(crate) struct ExpandSettings {
@@ -37,9 +37,7 @@ pub(crate) fn wanted(
     let flat = flags.flat_program.is_some() && !is_converted;
     let flat = flat.then_some("--flat-program");
     if let Some(option) = flags.with.given().or(flat) {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            format!(
+        return Err(ErrorCode::Unused.failure(format!(
                 "{option} says something about an expanded program, and this one is read as it stands; add --expand (in a job file: a table [expand]), or leave {option} out"
             ),
         ));
@@ -115,10 +113,9 @@ pub(crate) fn settings(
 /// Folders of subprograms that options name.
 pub(crate) fn folders(args: &ExpansionArgs) -> Answer<Vec<PathBuf>> {
     match args.subprograms.iter().find(|folder| !folder.is_dir()) {
-        Some(folder) => Err(Failure::new(
-            ErrorCode::FileNotRead,
-            format!("--subprograms: {}", no_folder(folder)),
-        )),
+        Some(folder) => {
+            Err(ErrorCode::FileNotRead.failure(format!("--subprograms: {}", no_folder(folder))))
+        }
         None => Ok(args.subprograms.clone()),
     }
 }
@@ -190,10 +187,9 @@ fn of_options(option: &str, words: &[String], allowed: Allowed) -> Answer<BTreeM
     let mut values = BTreeMap::new();
     for word in words {
         let refuse = |what: &str| {
-            Failure::new(
-                ErrorCode::Value,
-                format!("{option} '{word}': {what}; write a number and its value, as in 3=6.5"),
-            )
+            ErrorCode::Value.failure(format!(
+                "{option} '{word}': {what}; write a number and its value, as in 3=6.5"
+            ))
         };
         let (number, value) = word
             .split_once('=')

@@ -10,7 +10,7 @@ use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::robot::folder::Folder;
 use crate::job::robot::source::RobotSource;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Upper limit of the files of one program.
 const MOST_FILES: usize = 1000;
@@ -26,9 +26,7 @@ pub(crate) fn refuse_calls_beside(source: &RobotSource, program: &Path) -> Answe
     }
     let folder = Folder::of(&folder_of(program));
     match called.iter().find(|name| folder.file(name).is_some()) {
-        Some(name) => Err(Failure::new(
-            ErrorCode::Missing,
-            format!(
+        Some(name) => Err(ErrorCode::Missing.failure(format!(
                 "'{}' calls {name}, which lies in its folder and is not read with it: let both be run once and written flat (--expand, or a table [expand] in the job file)",
                 file.name()
             ),
@@ -70,9 +68,7 @@ pub(crate) fn with_called_files(
             let bytes = inputs.bytes("subprogram", &path)?;
             for other in found {
                 if inputs.bytes("subprogram", &other)? != bytes {
-                    return Err(Failure::new(
-                        ErrorCode::Conflict,
-                        format!(
+                    return Err(ErrorCode::Conflict.failure(format!(
                             "two different subprograms have one name: '{}', line 1, and '{}', line 1; leave out the folder of one, or rename one",
                             path.display(),
                             other.display()

@@ -7,7 +7,7 @@ use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{Language, SourceFile};
 use kinetostat_program::COMPENSATED_MARK;
 
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Marker line between the files of a joined program, in front of their numbers; it is no line of a header.
 const MARK: &str = "kinetostat, next file of the program,";
@@ -66,9 +66,7 @@ impl Divided {
                 .windows(MARK.len())
                 .any(|part| part == MARK.as_bytes())
             {
-                return Err(Failure::new(
-                    ErrorCode::ProgramRefused,
-                    format!(
+                return Err(ErrorCode::ProgramRefused.failure(format!(
                         "{}: the words '{MARK}' stand in it: they are for divided programs while they are read as one; take them out",
                         file.name()
                     ),
@@ -124,9 +122,7 @@ impl Divided {
             }
         }
         if files.len() != self.files.len() {
-            return Err(Failure::new(
-                ErrorCode::Internal,
-                "the written program cannot be divided into its files again; nothing was written, please report this",
+            return Err(ErrorCode::Internal.failure("the written program cannot be divided into its files again; nothing was written, please report this",
             ));
         }
         let is_marked = files[0]

@@ -15,7 +15,7 @@ use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::{JobFile, model_named};
 use crate::job::robot::source::RobotSource;
 use crate::job::tools::tool;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::short;
 
 /// An arm of six turning joints, for a table in degrees: as the controller shows them where the model says how that is.
@@ -113,10 +113,9 @@ pub(crate) fn give_arm(
     };
     let refuse = |reason: String| {
         let line = first.line;
-        Err(Failure::new(
-            ErrorCode::ProgramUnsuited,
-            format!("line {line}: the table states joint values{reason}"),
-        ))
+        Err(ErrorCode::ProgramUnsuited.failure(format!(
+            "line {line}: the table states joint values{reason}"
+        )))
     };
     let Some(between) = source.settings.joint_rows else {
         return refuse(", and how the controller moves from row to row is not stated: state it, joint_rows = \"joint\" (all joints in step) or \"linear\" (the tool on a straight line), under [robot] in the job file, or --joint-rows".to_owned());

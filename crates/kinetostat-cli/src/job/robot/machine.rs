@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
 use crate::job::robot::frames::RobotFrames;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::{short, triple};
 
 /// Differences below this are those of digits, m and rad.
@@ -59,13 +59,9 @@ pub(crate) fn tool_of_robot(
     match frames.tools.first() {
         None => Ok((stated, stated_words)),
         Some((_, _, None)) if is_stated || !frames.states_orientation => Ok((stated, stated_words)),
-        Some((_, name, None)) => Err(Failure::new(
-            ErrorCode::Missing,
-            format!("{}, or under [tool]", not_stated(name)),
+        Some((_, name, None)) => Err(ErrorCode::Missing.failure(format!("{}, or under [tool]", not_stated(name)),
         )),
-        Some((_, name, Some(pose))) if is_stated && differ(pose, &stated) => Err(Failure::new(
-            ErrorCode::Conflict,
-            format!(
+        Some((_, name, Some(pose))) if is_stated && differ(pose, &stated) => Err(ErrorCode::Conflict.failure(format!(
                 "the tool is stated twice, and not the same: {} by the program; {stated_words}, by the job. Leave out [tool] (or --tool-length-mm), or correct one of them",
                 words(name, pose)
             ),
@@ -114,7 +110,7 @@ pub(crate) fn tools_of_robot(
     let (mut tools, mut all) = (Vec::new(), Vec::new());
     for (number, name, pose) in &frames.tools {
         let Some(pose) = pose else {
-            return Err(Failure::new(ErrorCode::Missing, not_stated(name)));
+            return Err(ErrorCode::Missing.failure(not_stated(name)));
         };
         all.push(words(name, pose));
         given.push(ToolGiven {
@@ -148,9 +144,7 @@ pub(crate) fn tools_of_converted(
         if let [first, others @ ..] = same.as_slice()
             && let Some(other) = others.iter().find(|other| other.2 != first.2)
         {
-            return Err(Failure::new(
-                ErrorCode::Conflict,
-                format!(
+            return Err(ErrorCode::Conflict.failure(format!(
                     "the tools {} and {} under [[tools]] have the tip at one place and other loads, and a program of a robot knows its tools by where their tips are: state one load for both under [load], or compensate the parts of the program one by one",
                     first.0, other.0
                 ),
@@ -175,17 +169,13 @@ pub(crate) fn placement_of_robot(
     stated: Placement,
 ) -> Answer<Placement> {
     if stated.orientation_follows && frames.states_orientation {
-        return Err(Failure::new(
-            ErrorCode::ModelUnsuited,
-            "the machine turns its tool as it moves (orientation follows), and the program states the orientation of its tool: give a program of positions",
+        return Err(ErrorCode::ModelUnsuited.failure("the machine turns its tool as it moves (orientation follows), and the program states the orientation of its tool: give a program of positions",
         ));
     }
     let is_tool_stated = flags.tool_orientation.is_some()
         || job.is_some_and(|j| j.job.placement.tool_orientation.is_some());
     if is_tool_stated && frames.states_orientation && !frames.converted {
-        return Err(Failure::new(
-            ErrorCode::Conflict,
-            "the program states the orientation of its tool: leave out tool_orientation under [placement] (--tool-orientation); to turn the tool about its axis, turn its frame under [robot.frames]",
+        return Err(ErrorCode::Conflict.failure("the program states the orientation of its tool: leave out tool_orientation under [placement] (--tool-orientation); to turn the tool about its axis, turn its frame under [robot.frames]",
         ));
     }
     let is_stated = flags.part_origin_mm.is_some()
@@ -200,28 +190,20 @@ pub(crate) fn placement_of_robot(
     match &frames.work_object {
         None if frames.tools.is_empty() => Ok(stated),
         // Several work objects: the path is in axes of the base.
-        None if is_stated => Err(Failure::new(
-            ErrorCode::Conflict,
-            "the program has several work objects, and says where they are: leave out part_origin_mm and part_orientation",
+        None if is_stated => Err(ErrorCode::Conflict.failure("the program has several work objects, and says where they are: leave out part_origin_mm and part_orientation",
         )),
         None => Ok(in_base(Pose::identity())),
-        Some((name, None)) if name.starts_with("MSYS") => Err(Failure::new(
-            ErrorCode::Conflict,
-            format!(
+        Some((name, None)) if name.starts_with("MSYS") => Err(ErrorCode::Conflict.failure(format!(
                 "the places of the program count from {name} in the part, and where the part is in the base is not stated so that this counts: state it as  frames.PART = {{ position_mm = [...] }}  under [robot] in the job file, and leave part_origin_mm out"
             ),
         )),
         Some((_, None)) if is_stated || !frames.states_orientation => Ok(stated),
-        Some((name, None)) => Err(Failure::new(
-            ErrorCode::Missing,
-            format!(
+        Some((name, None)) => Err(ErrorCode::Missing.failure(format!(
                 "the program does not say where its work object `{name}` is: state it as  frames.\"{name}\" = {{ position_mm = [...] }}  under [robot] in the job file, or part_origin_mm under [placement]"
             ),
         )),
         Some((name, Some(pose))) if is_stated && differ(pose, &stated.base_from_part) => {
-            Err(Failure::new(
-                ErrorCode::Conflict,
-                format!(
+            Err(ErrorCode::Conflict.failure(format!(
                     "the place of the part is stated twice, and not the same: the work object `{name}` of the program lies at {} mm in the base. Leave out part_origin_mm and part_orientation, or correct one of them",
                     triple((1e3 * pose.translation.vector).into(), short)
                 ),

@@ -18,7 +18,7 @@ use crate::job::robot::read_once::ReadOnce;
 use crate::job::robot::settings::RobotSettings;
 use crate::job::robot::source::RobotSource;
 use crate::job::robot::system_frames::taken;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::fault_list::{Fault, fault_list_text};
 use crate::ui::numbers::short;
 
@@ -116,9 +116,7 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
         source.language.is_list(),
         program.motions.iter().find(joints),
     ) {
-        return Err(Failure::new(
-            ErrorCode::ProgramUnsuited,
-            format!(
+        return Err(ErrorCode::ProgramUnsuited.failure(format!(
                 "line {}: the table states joint values; which poses they give only a model says, and none is asked here: compensate with a model, or let the CAM system or the controller write poses (x_mm, y_mm, z_mm, qw, qx, qy, qz)",
                 motion.line
             ),
@@ -131,9 +129,7 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
     });
     if let (true, Some(first)) = (program.motions.is_empty(), call) {
         let file = program.files.get(first.file).map_or("", |file| file.name());
-        return Err(Failure::new(
-            ErrorCode::ProgramUnsuited,
-            format!(
+        return Err(ErrorCode::ProgramUnsuited.failure(format!(
                 "{file}, line {}: the program has no motion of its own, and {}; compensate the files with the motions one by one",
                 first.line, first.message
             ),
@@ -142,9 +138,7 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
     let mut path = path_of(&program, &settings.making).map_err(|all| refused(&all))?;
     if path.file != 0 {
         let name = program.files[path.file].name();
-        return Err(Failure::new(
-            ErrorCode::ProgramUnsuited,
-            format!(
+        return Err(ErrorCode::ProgramUnsuited.failure(format!(
                 "the motions stand in '{name}': give that file as the program, and this one among files under [robot]"
             ),
         ));
@@ -163,9 +157,7 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
     path.path.warnings.extend(settings.beyond_limits.clone());
     let mut moves = path.path.moves.iter();
     if settings.corrected == Directions::ALL && moves.all(|motion| motion.tool_turn.is_none()) {
-        return Err(Failure::new(
-            ErrorCode::ProgramUnsuited,
-            "the program does not state how its tool stands, so that its orientation cannot be corrected: leave out --correct pose (correct = \"pose\" under [robot])",
+        return Err(ErrorCode::ProgramUnsuited.failure("the program does not state how its tool stands, so that its orientation cannot be corrected: leave out --correct pose (correct = \"pose\" under [robot])",
         ));
     }
     let by_direction = |motion: &Move| {
@@ -174,9 +166,7 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
         rotary.is_some_and(|rotary| rotary.stated == StatedBy::Direction)
     };
     if settings.corrected == Directions::ALL && path.path.moves.iter().any(by_direction) {
-        return Err(Failure::new(
-            ErrorCode::ProgramUnsuited,
-            "the program states directions of the tool, and rotary axes that follow them are not corrected: leave out --correct pose (correct = \"pose\" under [robot]), or let the CAM system write their angles",
+        return Err(ErrorCode::ProgramUnsuited.failure("the program states directions of the tool, and rotary axes that follow them are not corrected: leave out --correct pose (correct = \"pose\" under [robot]), or let the CAM system write their angles",
         ));
     }
     Ok(ReadOnce { program, path })
@@ -215,7 +205,7 @@ const KEYS: [(&str, &str); 9] = [
 
 pub(crate) fn refused<F: Fault>(all: &[F]) -> Failure {
     let Some(first) = all.first() else {
-        return Failure::new(ErrorCode::ProgramRefused, "the program is refused");
+        return ErrorCode::ProgramRefused.failure("the program is refused");
     };
     let mut text = fault_list_text("lines", first, all);
     let named = |(words, _): &&(&str, &str)| text.contains(words);
@@ -227,7 +217,9 @@ pub(crate) fn refused<F: Fault>(all: &[F]) -> Failure {
             keys.join("  or  ")
         ));
     }
-    Failure::new(ErrorCode::ProgramRefused, text).with_faults(all.iter().map(Fault::diagnostic))
+    ErrorCode::ProgramRefused
+        .failure(text)
+        .with_faults(all.iter().map(Fault::diagnostic))
 }
 
 /// Differences below this are those of digits, mm and rad.
@@ -351,9 +343,7 @@ pub(crate) fn flat_text(source: &RobotSource, comments: bool) -> Answer<(FlatTex
     let done = expand(source.language, files, &source.settings.reading)
         .map_err(|all| refused(&all).of_program())?;
     let Some(text) = done else {
-        return Err(Failure::new(
-            ErrorCode::Unused,
-            "--expand and [expand] are for programs, and a list of poses is read as it stands: leave them out",
+        return Err(ErrorCode::Unused.failure("--expand and [expand] are for programs, and a list of poses is read as it stands: leave them out",
         ));
     };
     let text = match comments {

@@ -19,7 +19,7 @@ use crate::job::robot_table::{
     CutterCompensationWord, ExternalAxesWord, LengthUnitWord, RobotTable, UnknownTargetsWord,
 };
 use crate::job::values::{above_zero, chosen};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// Settings for reading and writing a robot's program.
 #[derive(Clone, Debug)]
@@ -163,9 +163,7 @@ fn moving_calls(
 ) -> Answer<BTreeSet<String>> {
     let found = stated_to_move(job, &flags.stated);
     match found.first() {
-        Some(name) if !language.takes_values() => Err(Failure::new(
-            ErrorCode::Unused,
-            format!(
+        Some(name) if !language.takes_values() => Err(ErrorCode::Unused.failure(format!(
                 "'{name}' is stated to move the tool ([calls] in the job, --call), which is for programs that call others: leave it out"
             ),
         )),
@@ -181,7 +179,7 @@ pub(crate) fn moving_subprograms(
     let number = |name: &String| {
         let digits = name.trim_start_matches(['O', 'o']);
         digits.parse::<u32>().map_err(|_| {
-            Failure::new(ErrorCode::Value, format!(
+            ErrorCode::Value.failure(format!(
                 "'{name}' is stated to move the tool ([calls] in the job, --call), and a subprogram of G-code has a number: write it as O9810"
             ))
         })
@@ -203,9 +201,7 @@ fn stated_values(
         found.insert(name.clone(), value.clone());
     }
     match found.keys().next() {
-        Some(name) if !language.takes_values() => Err(Failure::new(
-            ErrorCode::Unused,
-            format!(
+        Some(name) if !language.takes_values() => Err(ErrorCode::Unused.failure(format!(
                 "a value of '{name}' is stated ([values] in the job, --set), which is for programs that are run with values (of robots, Heidenhain, SINUMERIK): leave it out"
             ),
         )),

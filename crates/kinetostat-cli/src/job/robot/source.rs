@@ -19,7 +19,7 @@ use crate::job::output_paths::beside_program;
 use crate::job::robot::divided::Divided;
 use crate::job::robot::read_once::Reading;
 use crate::job::robot::settings::{RobotSettings, settings};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing};
 
 /// A program of a robot as it lies on disk, and how it is to be read.
 #[derive(Clone, Debug)]
@@ -76,15 +76,10 @@ pub(crate) fn robot_source(
     let table = job.and_then(|j| Some((j, j.job.robot.as_ref()?)));
     let Some(language) = language_of(name, bytes) else {
         if let Some(odd) = odd_program(name, bytes) {
-            return Err(Failure::new(
-                ErrorCode::FileForm,
-                format!("'{name}': {odd}"),
-            ));
+            return Err(ErrorCode::FileForm.failure(format!("'{name}': {odd}")));
         }
         return match (flags.of_robots_alone(), table) {
-            (Some(option), _) if !flags.converted => Err(Failure::new(
-                ErrorCode::Unused,
-                format!(
+            (Some(option), _) if !flags.converted => Err(ErrorCode::Unused.failure(format!(
                     "{option} is for programs of robots, and '{name}' is none that is known ({}): it is read as G-code; leave {option} out",
                     known_endings()
                 ),
@@ -109,9 +104,7 @@ pub(crate) fn robot_source(
     };
     refuse_unfit(job, program, language)?;
     if let Some(data) = language.data_ending().filter(|data| has_ending(path, data)) {
-        return Err(Failure::new(
-            ErrorCode::FileForm,
-            format!(
+        return Err(ErrorCode::FileForm.failure(format!(
                 "'{name}' holds data of a program: give its .{} as the program; the .{data} of the same name is read with it",
                 FileForm::Program(language).ending()
             ),
@@ -236,10 +229,7 @@ pub(crate) struct Written {
 fn as_text(name: &str, bytes: &[u8]) -> Answer<Option<Vec<u8>>> {
     match bytes.starts_with(b"PAR1") {
         true => text_of(bytes).map_err(|what| {
-            Failure::new(
-                ErrorCode::FileForm,
-                format!("the table in Parquet '{name}': {what}"),
-            )
+            ErrorCode::FileForm.failure(format!("the table in Parquet '{name}': {what}"))
         }),
         false => Ok(None),
     }
@@ -248,10 +238,9 @@ fn as_text(name: &str, bytes: &[u8]) -> Answer<Option<Vec<u8>>> {
 /// A program in Parquet with the numbers of a text.
 fn of_text(name: &str, original: &[u8], text: &[u8]) -> Answer<Written> {
     file_of(original, text).map_err(|what| {
-        Failure::new(
-            ErrorCode::Output,
-            format!("the table in Parquet '{name}' cannot be written corrected: {what}"),
-        )
+        ErrorCode::Output.failure(format!(
+            "the table in Parquet '{name}' cannot be written corrected: {what}"
+        ))
     })
 }
 
@@ -284,10 +273,7 @@ fn refuse_unfit(job: Option<&JobFile>, flags: &ProgramArgs, language: Language) 
     // A control has the switch for blocks behind a slash, as G-code has.
     let has_switch = language.has_slash_switch();
     let refuse = |what: &str, why: &str| {
-        Err(Failure::new(
-            ErrorCode::Unused,
-            format!("{what} is for G-code; {why}: leave it out"),
-        ))
+        Err(ErrorCode::Unused.failure(format!("{what} is for G-code; {why}: leave it out")))
     };
     let reading = &flags.reading;
     let words = "a program of a robot says it by its own statements";

@@ -9,7 +9,7 @@ use kinetostat_machining::{PointResult, RunInputs};
 
 use crate::program::points_columns::column;
 use crate::program::points_table::{Listing, header, rows};
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 
 /// A file that is being written; its bytes go out group by group.
 struct PointsFile<P> {
@@ -35,7 +35,7 @@ impl<P: FnMut(&[u8]) -> Answer<()>> PointsFile<P> {
         let columns: Vec<RowColumn> = names.into_iter().map(column).collect();
         let sink = Shared::default();
         let writer = RowsWriter::new(sink.clone(), &columns, &facts)
-            .map_err(|error| Failure::new(ErrorCode::Output, error))?;
+            .map_err(|error| ErrorCode::Output.failure(error))?;
         Ok(Self {
             columns,
             writer,
@@ -54,7 +54,7 @@ impl<P: FnMut(&[u8]) -> Answer<()>> PointsFile<P> {
         });
         self.writer
             .push(cells)
-            .map_err(|error| Failure::new(ErrorCode::Output, error))?;
+            .map_err(|error| ErrorCode::Output.failure(error))?;
         let bytes = self.sink.take();
         match bytes.is_empty() {
             true => Ok(()),
@@ -65,7 +65,7 @@ impl<P: FnMut(&[u8]) -> Answer<()>> PointsFile<P> {
     fn finish(mut self) -> Answer<()> {
         self.writer
             .finish()
-            .map_err(|error| Failure::new(ErrorCode::Output, error))?;
+            .map_err(|error| ErrorCode::Output.failure(error))?;
         (self.put)(&self.sink.take())
     }
 }
@@ -102,12 +102,9 @@ pub(crate) fn from_csv(
 }
 
 fn unread(error: csv::Error) -> Failure {
-    Failure::new(
-        ErrorCode::Checkpoint,
-        format!(
-            "the rows of points that were kept cannot be read ({error}): give --restart to begin anew"
-        ),
-    )
+    ErrorCode::Checkpoint.failure(format!(
+        "the rows of points that were kept cannot be read ({error}): give --restart to begin anew"
+    ))
 }
 
 /// Bytes that were written since they were taken last.

@@ -9,7 +9,7 @@ mod file;
 use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::{Answer, Failing, Failure};
 #[cfg(not(feature = "parquet"))]
 use {
     crate::program::points_table::Listing,
@@ -35,10 +35,8 @@ pub(crate) fn refuse_without_parquet(path: Option<&Path>) -> Answer<()> {
 }
 
 fn none() -> Failure {
-    Failure::new(
-        ErrorCode::NotBuiltIn,
-        "this program was built without Parquet: name a table of points that ends in .csv",
-    )
+    ErrorCode::NotBuiltIn
+        .failure("this program was built without Parquet: name a table of points that ends in .csv")
 }
 
 #[cfg(not(feature = "parquet"))]
