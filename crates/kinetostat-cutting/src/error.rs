@@ -35,7 +35,7 @@ pub enum CutErrorKind {
 
 /// A quantity, what was found and what was expected, with the place in a file where there is one.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{}{quantity}: {found}; {}", place(.file, .line), advice(.expected))]
+#[error("{}{quantity}: {found}; {}", place(.file, .line), advice(.expected, *.is_suggestion))]
 #[non_exhaustive]
 pub struct CutError {
     /// Subject of the error.
@@ -50,6 +50,8 @@ pub struct CutError {
     pub found: String,
     /// Expected value, or the remedy.
     pub expected: String,
+    /// True if `expected` is a question after the nearest known name.
+    pub is_suggestion: bool,
 }
 
 impl CutError {
@@ -68,7 +70,29 @@ impl CutError {
             quantity: quantity.into(),
             found: found.to_string(),
             expected: expected.into(),
+            is_suggestion: false,
         }
+    }
+
+    /// An error of a name that is not known; the nearest known ones are suggested.
+    #[must_use]
+    pub fn suggesting(
+        kind: CutErrorKind,
+        quantity: impl Into<String>,
+        found: impl ToString,
+        near: &[&str],
+    ) -> Self {
+        let names = near.join(" or ");
+        Self {
+            is_suggestion: true,
+            ..Self::new(kind, quantity, found, format!("did you mean {names}?"))
+        }
+    }
+
+    /// The expected value or the suggested names, as a clause.
+    #[must_use]
+    pub fn advice(&self) -> String {
+        advice(&self.expected, self.is_suggestion)
     }
 
     /// Adds the file and its line (from 1).
@@ -81,8 +105,8 @@ impl CutError {
 }
 
 /// Phrase with the expected value; a suggested name is used as it is.
-fn advice(expected: &str) -> String {
-    match expected.starts_with("did you mean") {
+fn advice(expected: &str, is_suggestion: bool) -> String {
+    match is_suggestion {
         true => expected.to_owned(),
         false => format!("expected {expected}"),
     }

@@ -81,7 +81,7 @@ pub use path::curve::{Arc, Curve};
 pub use path::great_circle::{GreatCircle, OffCircle};
 pub use path::moves::{
     CoordinateWords, ExtraAxis, ExtraMode, Feed, FeedMode, Knowledge, Move, MoveKind, Path,
-    PathPart, Pause, PauseKind, ToolChange, Warning,
+    PathPart, Pause, PauseKind, ToolChange, Warning, WarningTopic,
 };
 pub use path::rotary::{Carries, RotaryAxes, RotaryAxis};
 pub use path::rotary_angles::Unreached;

@@ -13,6 +13,9 @@
 
 use std::borrow::Borrow;
 
+/// Word for a number that is infinite.
+pub const INFINITE: &str = "infinite";
+
 /// Text in place of a missing number.
 pub const MISSING: &str = "not available";
 
@@ -172,7 +175,7 @@ pub fn counted(count: usize, one: &str) -> String {
 /// A number and its unit; no unit where there is no number.
 #[must_use]
 pub fn with_unit(number: &str, unit: &str) -> String {
-    if unit.is_empty() || number == MISSING || number.ends_with("infinite") {
+    if unit.is_empty() || number == MISSING || number.ends_with(INFINITE) {
         number.to_owned()
     } else {
         format!("{number} {unit}")
@@ -384,7 +387,7 @@ fn no_number(value: f64) -> Option<&'static str> {
     if value.is_nan() {
         Some(MISSING)
     } else if value == f64::INFINITY {
-        Some("infinite")
+        Some(INFINITE)
     } else if value == f64::NEG_INFINITY {
         Some("-infinite")
     } else {

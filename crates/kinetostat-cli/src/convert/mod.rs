@@ -18,6 +18,7 @@ use std::path::Path;
 use kinetostat_formats::{BetweenRows, Kept, Made, Template};
 use kinetostat_machining::number::counted;
 use kinetostat_machining::{Warning, WarningCode, merged};
+use kinetostat_program::WarningTopic;
 use kinetostat_report::turns_svg;
 
 use crate::convert::arguments::ConvertArgs;
@@ -283,12 +284,11 @@ fn answer(
     }
     let named = |line: usize| made.findings.iter().any(|f| f.line == Some(line));
     // Warnings about corrections do not apply here.
-    let warnings = read.path().warnings.iter().filter(|warning| {
-        let of_systems = warning.text.contains("work coordinate system");
-        !named(warning.line)
-            && (of_systems
-                || !warning.text.contains("correct") && !warning.text.contains("carried"))
-    });
+    let warnings = read
+        .path()
+        .warnings
+        .iter()
+        .filter(|warning| !named(warning.line) && warning.topic == WarningTopic::Program);
     for warning in warnings.chain(&setting.expansion_warnings) {
         let own = Warning::at_line(WarningCode::Program, warning.line, warning.text.clone());
         found.push(own);

@@ -12,9 +12,9 @@ mod text;
 use kinetostat_cutting::Stock;
 use kinetostat_machining::{
     CutPlace, CuttingTool, EngagementSource, FlatProgram, ForceAlongPath, PointKind, Warning,
-    cut_places, cutting_result, marked_as_compensated, of_program,
+    WarningCode, cut_places, cutting_result, marked_as_compensated,
 };
-use kinetostat_program::{Curve, Knowledge, MoveKind, Path};
+use kinetostat_program::{Curve, Knowledge, MoveKind, Path, WarningTopic};
 use kinetostat_report::{Cell, PlotLine, PlotMark, Section, engagement_svg};
 
 use crate::engagement::answer::{EngagementAnswer, StockAnswer, ToolAnswer};
@@ -107,12 +107,10 @@ fn answer_of(
     let mut warned: Vec<Warning> = warnings(Some(forces));
     warned.extend(read.with(marked_as_compensated));
     // Corrections do not apply here: every tool has its own cutter.
-    let of_corrections = |w: &Warning| w.message.contains("corrections are made for one tool");
-    warned.extend(
-        of_program(path, None)
-            .into_iter()
-            .filter(|w| !of_corrections(w)),
-    );
+    let of_program = path.warnings.iter();
+    let of_program = of_program.filter(|w| w.topic != WarningTopic::OneTool);
+    warned
+        .extend(of_program.map(|w| Warning::at_line(WarningCode::Program, w.line, w.text.clone())));
     EngagementAnswer {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),

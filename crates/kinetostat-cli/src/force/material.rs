@@ -28,7 +28,7 @@ pub(crate) fn material(materials: &Materials, args: &MaterialArgs) -> Answer<Mat
         ));
     };
     let found = materials.find(name).map_err(|error| {
-        let near = match error.expected.starts_with("did you mean") {
+        let near = match error.is_suggestion {
             true => format!("; {}", error.expected),
             false => ";".to_owned(),
         };

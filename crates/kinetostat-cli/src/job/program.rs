@@ -131,13 +131,13 @@ fn without_effect(program: &Program, path: &ToolPath, reading: &ReadOptions) -> 
         || is_unused(reading.machine_zero_mm, &of_zero)
     {
         let text = "a place of the machine (machine_zero_mm, g28_mm, g30_mm) is stated, and no block goes by it (G10, G28, G30, G53): it changes nothing".to_owned();
-        found.push(Warning { line: 1, text });
+        found.push(Warning::new(1, text));
     }
     let first = path.moves.first().map(|motion| motion.line);
     let named = first.filter(|line| path.tool_on(*line).is_some());
     if let (Some(line), true, true) = (named, reading.tools.is_some(), reading.tool_before_first) {
         let text = "the tool is stated twice: the program has named one of [[tools]] before it moves, whose length counts, and that under [tool] is used nowhere; leave length_mm and pose out there".to_owned();
-        found.push(Warning { line, text });
+        found.push(Warning::new(line, text));
     }
     found
 }

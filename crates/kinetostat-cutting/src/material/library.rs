@@ -97,15 +97,13 @@ impl Materials {
             if near.is_empty() && !wanted.is_empty() {
                 near = self.with_part(&wanted);
             }
-            let expected = match near.is_empty() {
-                false => format!("did you mean {}?", near.join(" or ")),
-                true => {
-                    let all: Vec<&str> = self.list.iter().map(|m| m.name.as_str()).collect();
-                    format!("one of {}; or a file of your own", all.join(", "))
-                }
-            };
             let shown: String = name.chars().take(60).collect();
             let found = format!("`{shown}` is not known");
+            if !near.is_empty() {
+                return CutError::suggesting(CutErrorKind::Material, "material", found, &near);
+            }
+            let all: Vec<&str> = self.list.iter().map(|m| m.name.as_str()).collect();
+            let expected = format!("one of {}; or a file of your own", all.join(", "));
             CutError::new(CutErrorKind::Material, "material", found, expected)
         })
     }

@@ -145,11 +145,8 @@ fn path_of_maker(maker: &Maker<'_>) -> Path {
         let start = last.filter(|_| follows);
         let made = maker.made(index, start, last.unwrap_or_default());
         if motion.runs == Runs::Elsewhere {
-            warnings.push(Warning {
-                    line: motion.line,
-                    text: "nothing in these files leads to this motion: it is corrected as if it ran by itself"
-                        .to_owned(),
-                });
+            warnings.push(Warning::of_corrections(motion.line, "nothing in these files leads to this motion: it is corrected as if it ran by itself"
+                        .to_owned()));
         }
         last = maker.end_in_path(index);
         moves.push(made);

@@ -39,16 +39,13 @@ pub(crate) fn warnings_of(
     let mut warnings = Vec::new();
     let begins = |motion: &&Move| motion.known == Knowledge::End && motion.kind == MoveKind::Feed;
     if let Some(first) = moves.iter().find(begins) {
-        warnings.push(Warning {
-            line: first.line,
-            text: format!(
+        warnings.push(Warning::of_corrections(first.line, format!(
                 "where {} begins is not known, here first: behind another tool or zero point (G54, G55), behind joint values, in a branch or in what runs more than once. Only the end is corrected, and of a force that turns with the feed only the part along the tool",
                 match moves.iter().filter(begins).count() {
                     1 => "1 motion at feed".to_owned(),
                     n => format!("{n} motions at feed"),
                 }
-            ),
-        });
+            )));
     }
     warnings.extend(by_half_a_turn(moves));
     let slow = |motion: &&Motion| {
@@ -58,32 +55,23 @@ pub(crate) fn warnings_of(
     };
     let unknown = program.motions.iter().find(slow);
     if let (Some(motion), Some(_)) = (unknown, options.rapid_from_mm_per_s) {
-        warnings.push(Warning {
-            line: motion.line,
-            text: format!(
+        warnings.push(Warning::new(
+            motion.line,
+            format!(
                 "the speed `{}` is not known, here first: such motions are taken to cut",
                 motion.speed.text
             ),
-        });
+        ));
     }
     if let Some(line) = tiny(program, place) {
-        warnings.push(Warning {
-            line,
-            text: "all places of the program lie within 3 mm of each other: are its lengths in metres or centimetres? They are taken for millimetres".to_owned(),
-        });
+        warnings.push(Warning::new(line, "all places of the program lie within 3 mm of each other: are its lengths in metres or centimetres? They are taken for millimetres".to_owned()));
     }
     warnings.extend(odd_speed(program, moves));
     if in_base {
-        warnings.push(Warning {
-            line: 1,
-            text: "the program uses several work objects: its places in results, heights of the load and tables of corrections are in axes of the robot's base".to_owned(),
-        });
+        warnings.push(Warning::of_corrections(1, "the program uses several work objects: its places in results, heights of the load and tables of corrections are in axes of the robot's base".to_owned()));
     }
     for finding in &program.findings {
-        warnings.push(Warning {
-            line: finding.line,
-            text: finding.message.clone(),
-        });
+        warnings.push(Warning::new(finding.line, finding.message.clone()));
     }
     warnings
 }
@@ -97,12 +85,12 @@ fn by_half_a_turn(moves: &[Move]) -> Option<Warning> {
     let mut all = moves.iter().filter(half);
     let first = all.next()?;
     let more = and_more(all.count(), "motion");
-    Some(Warning {
-        line: first.line,
-        text: format!(
+    Some(Warning::new(
+        first.line,
+        format!(
             "the tool turns by half a turn here{more}, and on which side it goes round is not stated: the controller may go on the other one than is taken here; write a pose between"
         ),
-    })
+    ))
 }
 
 /// True for a rotation of about 180 deg, whose sense is ambiguous; angles of rotary axes define it.
@@ -156,13 +144,13 @@ fn odd_speed(program: &RobotProgram, moves: &[Move]) -> Option<Warning> {
         Some((motion.line, motion.speed.mm_per_s?))
     };
     let (line, speed) = fastest.filter(is_odd).or_else(too_fast)?;
-    Some(Warning {
+    Some(Warning::new(
         line,
-        text: format!(
+        format!(
             "a speed of {} mm/s is unusual: robots cut with 1 to 300 mm/s and move with up to 2000 mm/s; check its unit ($VEL.CP of KRL is in m/s, speeds of RAPID in mm/s, those of tables as their column says)",
             (1e4 * speed).round() / 1e4
         ),
-    })
+    ))
 }
 
 /// Warnings on the rule for the rotation about the tool axis, at the first motion that it affects, and on an unstated axis.
@@ -190,24 +178,24 @@ pub(crate) fn by_rule(
         true => "z",
         false => "z of the robot's base",
     };
-    let mut warnings = vec![Warning {
-        line: leaning.line,
-        text: format!(
+    let mut warnings = vec![Warning::new(
+        leaning.line,
+        format!(
             "the program states the tool's axis alone, here first another one than {z}: about it the tool is taken to turn {rule}"
         ),
-    }];
+    )];
     let unstated = |motion: &Motion| matches!(&motion.site.target, TargetSite::Literal(text) if text.convention == OrientationText::Unstated);
     let has_angles = program.rotary.has_angles();
     let by_axes = |index: &usize| has_angles && program.rotary.motions.contains_key(index);
     let mut motions = program.motions.iter().enumerate();
     let first = motions.find(|(index, motion)| unstated(motion) && !by_axes(index));
     if let (Some(words), Some((_, motion))) = (program.language.words_of_direction(), first) {
-        warnings.push(Warning {
-            line: motion.line,
-            text: format!(
+        warnings.push(Warning::new(
+            motion.line,
+            format!(
                 "the direction of the tool is not stated here ({words}): z of the part is taken"
             ),
-        });
+        ));
     }
     warnings
 }
@@ -223,12 +211,12 @@ pub(crate) fn turns_alone(moves: &[Move]) -> Option<Warning> {
     let mut all = moves.iter().filter(alone);
     let first = all.next()?;
     let more = and_more(all.count(), "block");
-    Some(Warning {
-        line: first.line,
-        text: format!(
+    Some(Warning::of_corrections(
+        first.line,
+        format!(
             "rotary axes turn alone here{more}: where the block is corrected its pieces keep F, which counts the way of the tip then, so that the axes may turn as fast as they can"
         ),
-    })
+    ))
 }
 
 /// Number of further findings, in brackets.

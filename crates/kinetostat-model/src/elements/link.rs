@@ -111,7 +111,7 @@ fn offset(place: &KeyPath, e: &LinkElement) -> Result<Vector3<f64>, Option<Findi
         }
         None => {
             let length = positive(place, "length", &lengths).map_err(|mut f| {
-                if f.message.ends_with("missing") {
+                if lengths.iter().all(|choice| choice.value.is_none()) {
                     f.help.push_str(", or vector_mm");
                 }
                 f

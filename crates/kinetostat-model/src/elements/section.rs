@@ -80,7 +80,7 @@ impl Moduli {
                 e / (2.0 + 2.0 * ratio.value)
             }
             None => modulus(place, "shear modulus", &self.shear, warnings).map_err(|mut f| {
-                if f.message.ends_with("missing") {
+                if self.shear.iter().all(|choice| choice.value.is_none()) {
                     f.help.push_str(" or poissons_ratio");
                 }
                 f

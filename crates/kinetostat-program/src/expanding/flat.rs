@@ -62,10 +62,8 @@ impl<'o> Flat<'o> {
 
     /// Adds a warning about the last block.
     pub fn warn(&mut self, text: &str) {
-        self.warnings.push(Warning {
-            line: self.origins.len(),
-            text: text.to_owned(),
-        });
+        self.warnings
+            .push(Warning::new(self.origins.len(), text.to_owned()));
     }
 
     /// Adds a warning about a line that may hold for many.

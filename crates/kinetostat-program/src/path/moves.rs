@@ -235,6 +235,42 @@ pub struct Warning {
     pub line: usize,
     /// Text of the warning, with its consequence.
     pub text: String,
+    /// Use of the program for which it matters.
+    #[serde(skip)]
+    pub topic: WarningTopic,
+}
+
+/// Use of a program for which a warning matters.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum WarningTopic {
+    /// Every use.
+    #[default]
+    Program,
+    /// The program is corrected.
+    Corrections,
+    /// The program is corrected, and for one tool length and one load.
+    OneTool,
+}
+
+impl Warning {
+    /// A warning for every use of the program.
+    #[must_use]
+    pub fn new(line: usize, text: impl Into<String>) -> Self {
+        Self {
+            line,
+            text: text.into(),
+            topic: WarningTopic::Program,
+        }
+    }
+
+    /// A warning that matters only where the program is corrected.
+    #[must_use]
+    pub fn of_corrections(line: usize, text: impl Into<String>) -> Self {
+        Self {
+            topic: WarningTopic::Corrections,
+            ..Self::new(line, text)
+        }
+    }
 }
 
 /// A change on a line.

@@ -61,13 +61,15 @@ impl Path {
             before = turn.stated;
         }
         let mut found: Vec<Warning> = (beyond.into_iter().chain(open))
-            .map(|(_, several)| Warning {
-                line: several.line,
-                text: match several.more {
-                    0 => several.text,
-                    1 => format!("{} (and in 1 more block)", several.text),
-                    n => format!("{} (and in {n} more blocks)", several.text),
-                },
+            .map(|(_, several)| {
+                Warning::new(
+                    several.line,
+                    match several.more {
+                        0 => several.text,
+                        1 => format!("{} (and in 1 more block)", several.text),
+                        n => format!("{} (and in {n} more blocks)", several.text),
+                    },
+                )
             })
             .collect();
         found.sort_by_key(|warning| warning.line);

@@ -1,6 +1,6 @@
 //! Warnings that concern many lines: each text is given once, with its first lines and their number.
 
-use crate::path::moves::Warning;
+use crate::path::moves::{Warning, WarningTopic};
 
 /// Lines that are named; further ones are counted.
 const LINES_NAMED: usize = 6;
@@ -13,6 +13,7 @@ pub(crate) struct Repeated {
 
 struct Lines {
     text: String,
+    topic: WarningTopic,
     /// The first of them.
     named: Vec<usize>,
     count: usize,
@@ -21,6 +22,15 @@ struct Lines {
 impl Repeated {
     /// Counts a line for a text; only the first [`LINES_NAMED`] of them are kept.
     pub(crate) fn note(&mut self, line: usize, text: &str) {
+        self.add(line, text, WarningTopic::Program);
+    }
+
+    /// The same for a text that matters only where the program is corrected.
+    pub(crate) fn note_of_corrections(&mut self, line: usize, text: &str) {
+        self.add(line, text, WarningTopic::Corrections);
+    }
+
+    fn add(&mut self, line: usize, text: &str, topic: WarningTopic) {
         match self.all.iter_mut().find(|known| known.text == text) {
             Some(known) => {
                 known.count += 1;
@@ -30,6 +40,7 @@ impl Repeated {
             }
             None => self.all.push(Lines {
                 text: text.to_owned(),
+                topic,
                 named: vec![line],
                 count: 1,
             }),
@@ -39,8 +50,11 @@ impl Repeated {
     /// One warning for each text, at its first line.
     pub(crate) fn finish(self) -> impl Iterator<Item = Warning> {
         self.all.into_iter().map(|lines| Warning {
-            line: lines.named[0],
-            text: format!("{}{}", lines.text, lines.description()),
+            topic: lines.topic,
+            ..Warning::new(
+                lines.named[0],
+                format!("{}{}", lines.text, lines.description()),
+            )
         })
     }
 }

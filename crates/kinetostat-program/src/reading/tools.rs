@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::error::{ProgramError, ProgramErrorKind};
-use crate::path::moves::{Knowledge, Move, MoveKind, Path, ToolChange, Warning};
+use crate::path::moves::{Knowledge, Move, MoveKind, Path, ToolChange, Warning, WarningTopic};
 use crate::reading::block::Block;
 use crate::reading::options::ReadOptions;
 use crate::text::program::Program;
@@ -121,13 +121,10 @@ fn warn_of_other_lengths(path: &mut Path, lengths: &[ToolChange]) {
             continue;
         };
         if tool != length.number && reported.insert((tool, length.number)) {
-            path.warnings.push(Warning {
-                line: length.line,
-                text: format!(
+            path.warnings.push(Warning::of_corrections(length.line, format!(
                     "G43 H{} takes the length of another tool than T{tool}, which is in the spindle; corrections are those of tool {tool}",
                     length.number
-                ),
-            });
+                )));
         }
     }
 }
@@ -135,10 +132,13 @@ fn warn_of_other_lengths(path: &mut Path, lengths: &[ToolChange]) {
 /// Warning of a line from which on another tool may be in the spindle than the one that corrections are made for.
 fn of_another_tool(line: usize, what: &str) -> Warning {
     Warning {
-        line,
-        text: format!(
-            "{what}, and corrections are made for one tool length and one load: from here on they may be those of another tool. Name each tool with its length (and its load) as [[tools]] in the job file, or correct the part of each tool as a program of its own"
-        ),
+        topic: WarningTopic::OneTool,
+        ..Warning::new(
+            line,
+            format!(
+                "{what}, and corrections are made for one tool length and one load: from here on they may be those of another tool. Name each tool with its length (and its load) as [[tools]] in the job file, or correct the part of each tool as a program of its own"
+            ),
+        )
     }
 }
 
@@ -228,9 +228,6 @@ fn before_first_tool(
             "the first blocks move, without a cut, before the program has named a tool; they are corrected for a tool without length"
         }
     };
-    path.warnings.push(Warning {
-        line: first,
-        text: text.to_owned(),
-    });
+    path.warnings.push(Warning::of_corrections(first, text));
     Ok(())
 }

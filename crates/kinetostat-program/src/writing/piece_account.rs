@@ -74,14 +74,14 @@ impl<'a> PieceAccount<'a> {
             .filter(|axis| !self.path.stated[*axis])
             .map(|axis| ["X", "Y", "Z"][axis])
             .collect();
-        self.accounting.warnings.push(Warning {
-            line: 1,
-            text: format!(
+        self.accounting.warnings.push(Warning::new(
+            1,
+            format!(
                 "the program never states {}: corrections there, up to {} mm, are left out",
                 axes.join(" and "),
                 at_most(left_out_mm)
             ),
-        });
+        ));
     }
 
     /// A piece that is written.
@@ -301,31 +301,25 @@ impl<'a> PieceAccount<'a> {
             accounting.feed_limited_line,
             accounting.slowest_limited_speed,
         ) {
-            accounting.warnings.push(Warning {
-                line,
-                text: format!(
+            accounting.warnings.push(Warning::new(line, format!(
                     "the feed of {}, first here, is held to {} times the programmed one, though the tool's own \
                      path is longer: the part is cut more slowly there, the slowest at {} % of the programmed speed",
                     counted(accounting.feed_limited_pieces, "piece"),
                     self.options.max_feed_factor,
                     least_percent(speed)
-                ),
-            });
+                )));
         }
         let Some(line) = accounting.largest_backward_line else {
             return;
         };
-        accounting.warnings.push(Warning {
-            line,
-            text: format!(
+        accounting.warnings.push(Warning::new(line, format!(
                 "the written program goes {} against the direction of motion by more than {} mm, here by {} mm, to \
                  follow a correction that changes at once (a load that turns or begins, a table that folds back): where \
                  the machine does not do so, the tool cuts backwards",
                 counted(accounting.backward_steps, "time"),
                 self.options.backward_step_mm,
                 at_most(accounting.largest_backward_mm)
-            ),
-        });
+            )));
     }
 }
 

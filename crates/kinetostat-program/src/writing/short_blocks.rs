@@ -157,9 +157,9 @@ impl Found {
             Some(_) => ", or cut more slowly there",
             None => "",
         };
-        Some(Warning {
+        Some(Warning::new(
             line,
-            text: format!(
+            format!(
                 "{} block{} {what} on {} {}{more} {} shorter than the controller takes ({limit}), the shortest here with {} mm{time}: {needs}{remedy}{slower}",
                 self.blocks,
                 if self.blocks == 1 { "" } else { "s" },
@@ -171,7 +171,7 @@ impl Found {
                 if self.blocks == 1 { "is" } else { "are" },
                 at_most(length_mm),
             ),
-        })
+        ))
     }
 }
 

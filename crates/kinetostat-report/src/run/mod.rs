@@ -100,7 +100,7 @@ pub(crate) fn in_type(result: &RunResult) -> Figures {
     let plain = Figures::of(result);
     let set = |text: &String| {
         // A report has no word for what is infinite: it is no figure.
-        if text.ends_with("infinite") {
+        if text.ends_with(kinetostat::number::INFINITE) {
             crate::number::MISSING.to_owned()
         } else {
             typeset(text)

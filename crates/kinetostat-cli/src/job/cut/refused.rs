@@ -12,9 +12,6 @@ pub(crate) fn refused<T>(job: &JobFile, at: &Spanned<T>, error: &CutError) -> Fa
     if error.file.is_some() {
         return ErrorCode::Value.failure(error);
     }
-    let help = match error.expected.starts_with("did you mean") {
-        true => error.expected.clone(),
-        false => format!("expected {}", error.expected),
-    };
-    job.error(at, &format!("{}: {}", error.quantity, error.found), &help)
+    let found = format!("{}: {}", error.quantity, error.found);
+    job.error(at, &found, &error.advice())
 }

@@ -237,13 +237,13 @@ fn rows_beyond_limits(
     let unnamed = found.split_off(MOST_NAMED.min(found.len()));
     let mut said: Vec<Warning> = found.iter().map(Stretch::warning).collect();
     if let Some(first) = unnamed.first() {
-        said.push(Warning {
-            line: first.first,
-            text: format!(
+        said.push(Warning::new(
+            first.first,
+            format!(
                 "from here on joints are beyond their limits in {} more stretches of rows",
                 unnamed.len()
             ),
-        });
+        ));
     }
     said
 }
@@ -268,14 +268,14 @@ impl Stretch {
             true => format!(", where {} deg is the same place", degrees(turned)),
             false => String::new(),
         };
-        Warning {
-            line: self.first,
-            text: format!(
+        Warning::new(
+            self.first,
+            format!(
                 "{} is at {} deg{place}, and its limit in the model is {} deg: a controller stops there. Let the program be written inside the limits{instead}, or change limits_deg in the model if the arm goes farther",
                 self.joint,
                 degrees(value),
                 degrees(self.limit)
             ),
-        }
+        )
     }
 }

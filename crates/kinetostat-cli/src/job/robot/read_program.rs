@@ -148,12 +148,11 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
         .extend(spindle_of_blocks(&program));
     path.path.warnings.extend(warnings(source, &program));
     path.path.warnings.extend(taken(source, &program));
-    path.path
-        .warnings
-        .extend(settings.joints_are.map(|words| Warning {
-            line: 1,
-            text: words.to_owned(),
-        }));
+    path.path.warnings.extend(
+        settings
+            .joints_are
+            .map(|words| Warning::new(1, words.to_owned())),
+    );
     path.path.warnings.extend(settings.beyond_limits.clone());
     let mut moves = path.path.moves.iter();
     if settings.corrected == Directions::ALL && moves.all(|motion| motion.tool_turn.is_none()) {
@@ -243,13 +242,10 @@ fn warnings(source: &RobotSource, program: &RobotProgram) -> Vec<Warning> {
         .filter(|name| !used.contains_key(&key(name)) && key(name) != "PART")
         .map(|name| {
             let names: Vec<String> = used.values().map(|(_, used)| format!("`{}`", used.name)).collect();
-            Warning {
-                line: 1,
-                text: format!(
+            Warning::new(1, format!(
                     "frames.\"{name}\" under [robot] is no tool or work object of a motion of this program, which has {}",
                     names.join(", ")
-                ),
-            }
+                ))
         })
         .collect();
     warnings.extend(otherwise(source, &used));
@@ -323,15 +319,12 @@ fn otherwise(source: &RobotSource, used: &BTreeMap<String, (usize, &FrameUse)>) 
     let differs = |(name, (line, frame)): (&String, &(usize, &FrameUse))| {
         let (job, (_, program)) = (frame.known()?, own.get(name)?);
         let [away, turned] = distance(job, program.known()?);
-        (away > SAME || turned > SAME).then(|| Warning {
-            line: *line,
-            text: format!(
+        (away > SAME || turned > SAME).then(|| Warning::new(*line, format!(
                 "`{}` of the job, under [robot.frames], is not what the program says it is, {} mm away and turned by {} deg: the job counts",
                 frame.name,
                 short(away),
                 short(turned.to_degrees())
-            ),
-        })
+            )))
     };
     used.iter().filter_map(differs).collect()
 }
@@ -362,10 +355,7 @@ pub(crate) fn notes_of(text: &FlatText) -> Vec<Warning> {
     let notes = text.findings.iter().map(|finding| {
         let of_it = |origin: &(usize, usize)| *origin == (finding.file, finding.line);
         let line = text.origins.iter().position(of_it);
-        Warning {
-            line: line.map_or(1, |index| index + 1),
-            text: finding.message.clone(),
-        }
+        Warning::new(line.map_or(1, |index| index + 1), finding.message.clone())
     });
     notes.collect()
 }

@@ -112,16 +112,16 @@ pub(crate) fn taken(source: &RobotSource, program: &RobotProgram) -> Option<Warn
         .collect();
     let line = names.iter().filter_map(of).map(|(line, _)| *line).min()?;
     let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-    Some(Warning {
+    Some(Warning::new(
         line,
-        text: format!(
+        format!(
             "{}, which the program names, {} taken from '{}', where the program gives {} no value itself; if the controller has others, give its own {KRL_CONFIG} (files under [robot]), or state them (frames under [robot])",
             names.join(", "),
             if names.len() == 1 { "is" } else { "are" },
             found.path.display(),
             if names.len() == 1 { "it" } else { "them" },
         ),
-    })
+    ))
 }
 
 /// Returns the name without blanks, in capitals.

@@ -63,7 +63,7 @@ impl Interpreter<'_> {
             let offset = self.work_offset_mm() + self.offset.active_mm;
             self.places.position[2] = level * mm_per_unit + offset[2];
         }
-        self.repeated.note(block.line_number, &format!(
+        self.repeated.note_of_corrections(block.line_number, &format!(
             "the cycle G{} stays as it is written: the place over its hole is corrected, its depth is not, and its way is in no length and no verdict",
             code / 10
         ));

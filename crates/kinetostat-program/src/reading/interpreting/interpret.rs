@@ -235,12 +235,12 @@ pub(crate) fn unknown_beginning(line: usize, count: usize) -> Warning {
         1 => ("1 block moves".to_owned(), "it is"),
         _ => (format!("{count} blocks move"), "they are"),
     };
-    Warning {
+    Warning::of_corrections(
         line,
-        text: format!(
+        format!(
             "{blocks} before the program has stated where the tool is; {carried} carried unchanged (a start position changes this: --start-position-mm, or start_position_mm under [reading] in the job file)"
         ),
-    }
+    )
 }
 
 /// The pause that a block makes; `None` if it makes none.

@@ -173,11 +173,12 @@ impl<'o> Interpreter<'o> {
         self.moves.last()
     }
 
+    pub(super) fn warn_of_corrections(&mut self, line: usize, text: &str) {
+        self.warnings.push(Warning::of_corrections(line, text));
+    }
+
     pub(super) fn warn(&mut self, line: usize, text: &str) {
-        self.warnings.push(Warning {
-            line,
-            text: text.to_owned(),
-        });
+        self.warnings.push(Warning::new(line, text.to_owned()));
     }
 
     pub(super) fn note_no_motion(&mut self, block: &Block<'_>) {

@@ -68,7 +68,7 @@ impl Interpreter<'_> {
             self.unjudged_feed_on.get_or_insert(block.line_number);
         }
         if let (Some((axis, ..)), None) = (lost_before, lost) {
-            self.repeated.note(block.line_number, &format!(
+            self.repeated.note_of_corrections(block.line_number, &format!(
                 "where this feed starts along {} is not known (a tool length, G28, G30 or G53 changed it): only its end is corrected, and its way is in no length and no verdict",
                 char::from(COORDINATES[axis])
             ));
@@ -83,7 +83,7 @@ impl Interpreter<'_> {
                     char::from(COORDINATES[axis])
                 ),
             };
-            self.repeated.note(block.line_number, &text);
+            self.repeated.note_of_corrections(block.line_number, &text);
         }
         // The path of the slides while a rotary axis turns is not that of the tip.
         let known_before = match lost {

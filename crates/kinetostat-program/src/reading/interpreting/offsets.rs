@@ -17,7 +17,7 @@ impl Interpreter<'_> {
         match setting(block, &self.modes, self.options.machine_zero_mm)? {
             Setting::Tools => {
                 self.modes.forget_length_number();
-                self.repeated.note(block.line_number, "the program changes the machine's table of tools (G10): corrections are made for the tools as they are given here");
+                self.repeated.note_of_corrections(block.line_number, "the program changes the machine's table of tools (G10): corrections are made for the tools as they are given here");
             }
             Setting::Origin { system, origin_mm } => {
                 self.modes.use_units();

@@ -22,14 +22,14 @@ impl Interpreter<'_> {
         let tolerance = own.value;
         let mm = tolerance * self.modes.units().map_or(1.0, Units::mm_per_unit);
         if mm > LEAVES_MM {
-            self.repeated.note(block.line_number, &format!("the control may leave the path by {mm} mm from here on (G64 P{tolerance}), however it is corrected: no figure has that in it"));
+            self.repeated.note_of_corrections(block.line_number, &format!("the control may leave the path by {mm} mm from here on (G64 P{tolerance}), however it is corrected: no figure has that in it"));
         }
     }
 
     /// Settings of the control that round corners, or look ahead.
     pub(super) fn warn_of_look_ahead(&mut self, block: &Block<'_>) {
         if block.codes.looks_ahead {
-            self.repeated.note(block.line_number, "a setting of look-ahead or precision (G5, G5.1, G103, G187) is carried as it is written: how far the control may leave the path under it is in no figure");
+            self.repeated.note_of_corrections(block.line_number, "a setting of look-ahead or precision (G5, G5.1, G103, G187) is carried as it is written: how far the control may leave the path under it is in no figure");
         }
     }
 
@@ -51,7 +51,7 @@ impl Interpreter<'_> {
         let text = program.bytes()[program.content(&program.lines()[index])].trim_ascii_start();
         let comment = text.starts_with(b"(") || text.starts_with(b";");
         if !comment && text.iter().any(u8::is_ascii_alphanumeric) {
-            self.repeated.note(program.number_of(index), "text follows the closing tape mark %: it is carried unchanged, and is taken to be for people");
+            self.repeated.note_of_corrections(program.number_of(index), "text follows the closing tape mark %: it is carried unchanged, and is taken to be for people");
         }
     }
 
@@ -109,9 +109,9 @@ impl Interpreter<'_> {
                     (ExtraMode::Absolute, Some(start)) => format!("from {start} to {}", extra.word),
                     _ => format!("by {}", extra.word),
                 };
-                self.warn(line, &format!("axis {letter} moves {from} though it is said to stand still: from here on the corrections are right only if that does not change where the tool is in the part"));
+                self.warn_of_corrections(line, &format!("axis {letter} moves {from} though it is said to stand still: from here on the corrections are right only if that does not change where the tool is in the part"));
             } else if let Some((line, _)) = words().next() {
-                self.warn(
+                self.warn_of_corrections(
                     line,
                     &format!("axis {letter} is carried along and taken to stand still"),
                 );
