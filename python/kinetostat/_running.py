@@ -166,6 +166,14 @@ def _in_words(command: Sequence[str], options: Sequence[tuple[str, Any]], folder
     return words, names
 
 
+def _faults(done: Completed) -> tuple[dict[str, Any], ...]:
+    """Faults of a command that failed; none where it printed a result or text."""
+    if done.code in (0, _TOLERANCE_MISSED, _DOUBTFUL) or not done.out.startswith(b"{"):
+        return ()
+    report: dict[str, Any] = done.json()
+    return tuple(report["errors"]) if "exit_code" in report else ()
+
+
 def _done(
     command: Sequence[str],
     options: Sequence[tuple[str, Any]],
@@ -184,13 +192,18 @@ def _done(
     message = done.err.strip()
     at = message.rfind("error: ")
     reason = message[at + 7 :] if at >= 0 else message
+    faults = _faults(done)
     if done.code == _WRONG_INPUT:
         # What the command line says of its own use is no help here.
-        raise ArgumentError(in_words_of_python(reason.split("\n\nUsage: ")[0].rstrip()))
+        error = ArgumentError(in_words_of_python(reason.split("\n\nUsage: ")[0].rstrip()))
+        error.diagnostics = faults
+        raise error
     if done.code == _TOLERANCE_MISSED:
         warnings.warn(ToleranceMissedWarning(_MISSED, reason), stacklevel=4)
-    elif done.code not in (0, _DOUBTFUL) and not (done.code == _UNANSWERED and done.out.startswith(b"{")):
-        raise UnansweredError(reason)
+    elif done.code not in (0, _DOUBTFUL) and (faults or not (done.code == _UNANSWERED and done.out.startswith(b"{"))):
+        unanswered = UnansweredError(reason)
+        unanswered.diagnostics = faults
+        raise unanswered
     return done
 
 

@@ -5,6 +5,8 @@ A physical finding (a free direction, an unstable shape, a joint outside its lim
 
 from __future__ import annotations
 
+from typing import Any
+
 __all__ = ["ArgumentError", "KinetostatError", "ModelError", "PlausibilityWarning", "ToleranceMissedWarning", "UnansweredError"]
 
 
@@ -20,6 +22,9 @@ class KinetostatError(Exception):
     ...     print(type(error).__name__)
     ModelError
     """
+
+    diagnostics: tuple[dict[str, Any], ...] = ()
+    """Faults of a command one by one, as ``kinetostat schema error`` describes them: code, file, line, message, remedy. Empty elsewhere."""
 
 
 class ModelError(KinetostatError, ValueError):

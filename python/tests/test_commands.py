@@ -81,3 +81,12 @@ def test_machines_are_named_as_themselves_not_as_files_that_are_gone():
     with pytest.raises(ks.KinetostatError) as refused:
         ks.commands.stiffness(machine, at=[9000, 0, 0])
     assert "kinetostat-" not in str(refused.value)
+
+
+def test_an_error_of_a_command_has_its_faults() -> None:
+    with pytest.raises(ks.UnansweredError, match="cannot be reached") as far:
+        ks.commands.stiffness("orthoglide", at=[0, 0, 9000])
+    assert [fault["code"] for fault in far.value.diagnostics] == ["unreachable"]
+    with pytest.raises(ks.ArgumentError) as refused:
+        ks.commands.map("orthoglide")
+    assert refused.value.diagnostics[0]["code"] == "missing"

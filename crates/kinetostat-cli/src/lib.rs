@@ -59,6 +59,7 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches};
 use kinetostat_machining::Watch;
 
+use crate::command_line::help::{with_help_words, with_short_help};
 use crate::command_line::{Cli, Command, no_number, plain_numbers};
 use crate::files::journal;
 use crate::ui::failure::{Answer, Code, Failing, Failure};
@@ -146,7 +147,7 @@ pub fn command() -> clap::Command {
 
 /// The exit code of a command; `begin` is called when its words are understood.
 fn answer(words: impl Iterator<Item = OsString>, begin: impl FnOnce()) -> u8 {
-    let words = plain_numbers(words);
+    let words = with_help_words(plain_numbers(words));
     let asks_for_json = words.iter().any(|word| word == "--json");
     if let Some(what) = no_number(&words) {
         return refused(&ErrorCode::Value.failure(what), asks_for_json);
@@ -189,6 +190,9 @@ fn refused(failure: &Failure, as_json: bool) -> u8 {
 /// The command of a line, and the options that it gives.
 fn parsed(words: Vec<OsString>) -> Result<(Cli, Given), clap::Error> {
     let mut command = Cli::command();
+    if words.iter().any(|word| word == "-h") {
+        command = with_short_help(command);
+    }
     let mut matches = command.try_get_matches_from_mut(words)?;
     let given = Given::of(&command, &matches);
     let cli = Cli::from_arg_matches_mut(&mut matches);

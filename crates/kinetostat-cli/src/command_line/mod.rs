@@ -2,6 +2,8 @@
 //!
 //! It takes the words of the command line, negative numbers among them made readable, and gives a [`Command`].
 
+pub(crate) mod help;
+
 use std::ffi::OsString;
 
 use clap::{Parser, Subcommand};

@@ -350,7 +350,7 @@ pub(crate) struct FeatureTable {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct UncertainTable {
-    /// File of uncertainties (see `kinetostat tolerance --help`).
+    /// File of uncertainties (see `kinetostat tolerance --help-all`).
     pub file: Spanned<String>,
     /// Machines that are drawn.
     pub machines: Option<Spanned<usize>>,

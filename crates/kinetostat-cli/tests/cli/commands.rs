@@ -336,6 +336,63 @@ fn check_lists_loads_and_links() {
     assert_eq!(found["home"]["conservative"], false);
 }
 
+/// Every command, with those inside it.
+fn all_commands(command: &clap::Command, path: &[String], found: &mut Vec<Vec<String>>) {
+    for sub in command
+        .get_subcommands()
+        .filter(|sub| sub.get_name() != "help")
+    {
+        let mut path = path.to_vec();
+        path.push(sub.get_name().to_owned());
+        all_commands(sub, &path, found);
+        found.push(path);
+    }
+}
+
+#[test]
+fn the_help_of_every_command_fits_on_a_screen_and_names_every_option() {
+    let here = workplace();
+    let whole = kinetostat_cli::command();
+    let mut commands = Vec::new();
+    all_commands(&whole, &[], &mut commands);
+    assert!(commands.len() > 30, "{}", commands.len());
+    for path in commands {
+        let words: Vec<&str> = path.iter().map(String::as_str).collect();
+        let short = run(here.path(), &[&words[..], &["--help"]].concat())
+            .answered()
+            .out;
+        assert!(
+            short.lines().count() <= 80,
+            "{path:?}: {}",
+            short.lines().count()
+        );
+        narrow(&short);
+        assert_eq!(run(here.path(), &[&words[..], &["-h"]].concat()).out, short);
+        let long = run(here.path(), &[&words[..], &["--help-all"]].concat())
+            .answered()
+            .out;
+        let command = path.iter().fold(&whole, |command, name| {
+            command.find_subcommand(name).expect("a command")
+        });
+        for option in command
+            .get_arguments()
+            .filter(|option| !option.is_hide_set())
+        {
+            let Some(name) = option.get_long() else {
+                continue;
+            };
+            let is_named = |text: &str| {
+                text.split_whitespace()
+                    .any(|word| word == format!("--{name}"))
+            };
+            assert!(
+                is_named(&short) && is_named(&long),
+                "{path:?} --{name}: {short}"
+            );
+        }
+    }
+}
+
 #[test]
 fn help_completions_and_manual_pages() {
     let here = workplace();

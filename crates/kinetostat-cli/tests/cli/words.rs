@@ -393,7 +393,7 @@ fn examples_in_the_help_can_be_copied() {
     let mut examples: Vec<String> = Vec::new();
     let mut jobs = 0;
     for of in commands {
-        let help = shell(here.path(), &format!("COLUMNS=80 $K {of} --help"))
+        let help = shell(here.path(), &format!("COLUMNS=80 $K {of} --help-all"))
             .answered()
             .out;
         // A longer line would be broken where nobody can copy it.

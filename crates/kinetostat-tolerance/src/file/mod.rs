@@ -70,7 +70,7 @@ impl UncertaintyFile {
                 reader.refuse(
                     span,
                     error.message(),
-                    "see `kinetostat tolerance --help` for what such a file says",
+                    "see `kinetostat tolerance --help-all` for what such a file says",
                 );
                 return Err(ModelError::new(reader.problems));
             }
