@@ -45,7 +45,7 @@ pub(crate) fn answer_text(assembly: &AssemblyQuery, a: &Assembly, all: bool) -> 
             "Springs, in their own axes: deflection and torque",
         ),
     ] {
-        out.push_str(&group(a, &list, (what, title), loaded, all));
+        out.push_str(&group(a, &list, what, title, loaded, all));
     }
     out.push_str(&warnings::warnings(&a.warnings));
     out
@@ -147,13 +147,7 @@ fn over_constraint(a: &Assembly) -> String {
 }
 
 /// One table; rows without any number worth showing are left out.
-fn group(
-    a: &Assembly,
-    list: &[Row],
-    (what, title): (&str, &str),
-    loaded: bool,
-    all: bool,
-) -> String {
+fn group(a: &Assembly, list: &[Row], what: &str, title: &str, loaded: bool, all: bool) -> String {
     let of_group: Vec<&Row> = list.iter().filter(|r| r.what.starts_with(what)).collect();
     // Values at rounding level beside the largest, or without a visible digit, are zero.
     let most = |unit: &str| {

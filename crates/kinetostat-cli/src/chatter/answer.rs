@@ -10,6 +10,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::job::chatter::ChatterSetting;
+use crate::job::machine::MachineSetup;
 use crate::program::chatter::limits;
 
 #[derive(Serialize, JsonSchema)]
@@ -134,10 +135,13 @@ pub(crate) struct Stretch {
 
 impl ChatterAnswer {
     pub(crate) fn new(
-        (found, flat): (&ProgramChatter, Option<&FlatProgram>),
+        found: &ProgramChatter,
+        flat: Option<&FlatProgram>,
         program: &str,
-        (model, material, damping): (&str, &str, String),
-        (mut warnings, setting): (Vec<Warning>, &ChatterSetting),
+        machine: &MachineSetup,
+        damping: String,
+        mut warnings: Vec<Warning>,
+        setting: &ChatterSetting,
     ) -> Self {
         let source = |line: usize| flat?.place_of(line);
         let of_site = |judged: &JudgedSite| place(judged, source(judged.site.line));
@@ -146,8 +150,8 @@ impl ChatterAnswer {
             schema: 1,
             kinetostat_version: env!("CARGO_PKG_VERSION"),
             program: program.to_owned(),
-            model: model.to_owned(),
-            material: material.to_owned(),
+            model: machine.run_inputs.model.clone(),
+            material: (machine.cut.as_ref()).map_or_else(String::new, |cut| cut.material.clone()),
             damping,
             modes_up_to_hz: found.modes_up_to_hz(),
             places_in_cut: found.places,

@@ -51,23 +51,28 @@ pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
     };
     let mut setting = setting(&files, Some(&job), &flags, &WritingFlags::default())?;
     let model_named = args.model.as_deref();
-    let named = (Some(&job), model_named);
-    give_of_model(&mut setting, &files, named, &flags)?;
+    give_of_model(&mut setting, &files, Some(&job), model_named, &flags)?;
     let frames = setting.robot_frames()?;
-    let with = (frames.as_ref(), &mut setting.inputs);
-    let (machine, model) = machine_setup(&files, Some(&job), model_named, &flags, with)?;
+    let (machine, model) = machine_setup(
+        &files,
+        Some(&job),
+        model_named,
+        &flags,
+        frames.as_ref(),
+        &mut setting.inputs,
+    )?;
     let asked = ChatterFlags {
         modes_up_to_hz: args.modes_up_to_hz,
         every_mm: args.every_mm,
         most_places: args.most_places,
     };
     let asked = ChatterSetting::of(Some(&job), asked)?;
-    let judging = Judging::of((&machine, &model), &args.damping, &asked)
+    let judging = Judging::of(&machine, &model, &args.damping, &asked)
         .map_err(|failure| failure.within(&args.job.display().to_string()))?;
     setting.turned_by(machine.rotary.clone());
     let claimed = ClaimedFiles::claim(&args.outputs, &setting.inputs)?;
     let read = read_program(&setting)?;
-    refuse_unconvertible(&files, (Some(&job), &flags), (&model, &machine))?;
+    refuse_unconvertible(&files, Some(&job), &flags, &model, &machine)?;
     let progress = Progress::with_lines();
     let as_one = AsOne::new(&progress, "chatter, %", &SHARES);
     let forces = forces_of(&machine, &setting, read.path(), &as_one)?;
@@ -92,12 +97,14 @@ pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
     said.extend(judging.points.clone());
     let damping = words(&judging.damping);
     let result = found.result(damping.clone());
-    let material = machine.cut.as_ref().map_or("", |cut| &cut.material);
     let answer = ChatterAnswer::new(
-        (&found, flat),
+        &found,
+        flat,
         &setting.program_name,
-        (&machine.run_inputs.model, material, damping),
-        (of_warnings(said, flat), &asked),
+        &machine,
+        damping,
+        of_warnings(said, flat),
+        &asked,
     );
     let shown = Shown {
         text: text::answer_text(&answer, &result),

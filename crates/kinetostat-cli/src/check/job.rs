@@ -137,11 +137,10 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
     let mut setting = setting(files, Some(&job), flags, &WritingFlags::default())?;
     refuse_lines_beyond(Some(&job), &setting)?;
     named_outputs(files, &job, &mut setting)?;
-    give_of_model(&mut setting, files, (Some(&job), None), flags)?;
+    give_of_model(&mut setting, files, Some(&job), None, flags)?;
     let frames = setting.robot_frames()?;
     let inputs = &mut setting.inputs;
-    let (machine, model) =
-        machine_setup(files, Some(&job), None, flags, (frames.as_ref(), inputs))?;
+    let (machine, model) = machine_setup(files, Some(&job), None, flags, frames.as_ref(), inputs)?;
     setting.turned_by(machine.rotary.clone());
     let read = program::read_program(&setting)?;
     let motion = read.path();
@@ -153,7 +152,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         motion,
         machine.bounds.is_unplaced,
     ));
-    let judging = Judging::of_run((&machine, &model), &setting)
+    let judging = Judging::of_run(&machine, &model, &setting)
         .map_err(|failure| failure.within(&path.display().to_string()))?;
     let is_placed = setting.free_turn == FreeTurnWord::AsStated;
     let stands = tool_over_part(&machine, is_of_positions(motion));
@@ -168,8 +167,10 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
     warnings.extend(setting.of_expansion());
     warnings.extend(refuse_unconvertible(
         files,
-        (Some(&job), flags),
-        (&model, &machine),
+        Some(&job),
+        flags,
+        &model,
+        &machine,
     )?);
     // The list is cut behind some: what keeps the part from being cut comes first.
     warnings.sort_by_key(|warning| warning.code != WarningCode::SpindleNotStarted);
@@ -274,8 +275,10 @@ fn named_outputs(files: &InputFiles, job: &JobFile, setting: &mut Setting) -> An
     let module = TemplateFile::program_name(files, template.as_deref())?;
     in_language(
         &mut setting.targets,
-        (&setting.program_path, module),
-        (Some(job), Named::default()),
+        &setting.program_path,
+        module,
+        Some(job),
+        Named::default(),
         word.language(),
     )
 }

@@ -21,11 +21,12 @@ use crate::ui::screen::{self, Stream};
 /// The rotary axes of the model that a copy is given: whether its program could be compensated depends on them.
 pub(crate) fn rotary_of_copy(
     files: &InputFiles,
-    (job, model): (Option<&JobFile>, Option<&str>),
+    job: Option<&JobFile>,
+    model: Option<&str>,
     flags: &ProgramArgs,
 ) -> Option<Arc<RotaryAxes>> {
     // A copy needs no machine: what is wrong with it stops nothing.
-    let machine = machine_setup(files, job, model, flags, (None, &mut Vec::new()));
+    let machine = machine_setup(files, job, model, flags, None, &mut Vec::new());
     machine.ok()?.0.rotary
 }
 

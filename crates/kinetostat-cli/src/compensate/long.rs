@@ -26,7 +26,8 @@ use crate::ui::failure::Answer;
 pub(crate) fn compensate(
     files: &InputFiles,
     job: Option<&JobFile>,
-    (args, writing): (&CompensateArgs, &WritingFlags<'_>),
+    args: &CompensateArgs,
+    writing: &WritingFlags<'_>,
 ) -> Answer<bool> {
     let flags = &args.run.program;
     let path = program_path(job, flags)?;
@@ -44,9 +45,9 @@ pub(crate) fn compensate(
         say_as_a_whole(&path, flags, &whole);
         return Ok(false);
     }
-    give_of_model(&mut setting, files, (job, model_named), flags)?;
-    let with = (None, &mut setting.inputs);
-    let (machine, model) = machine_setup(files, job, model_named, flags, with)?;
+    give_of_model(&mut setting, files, job, model_named, flags)?;
+    let (machine, model) =
+        machine_setup(files, job, model_named, flags, None, &mut setting.inputs)?;
     setting.turned_by(machine.rotary.clone());
     let targets = setting.targets.clone();
     let whole = only_as_a_whole(&setting, &machine, &targets);
@@ -76,7 +77,7 @@ pub(crate) fn compensate(
     run.result
         .warnings
         .extend(run_warnings::of_run(&model, job, flags));
-    done.fill(&mut outputs, (&run.result.run_inputs, &targets))?;
+    done.fill(&mut outputs, &run.result.run_inputs, &targets)?;
     done.or_kept(outputs.fill_result(&run, &setting))?;
     let paths = done.commit(outputs.files)?;
     done.remove();

@@ -17,7 +17,7 @@ use kinetostat_machining::{RunResult, merged};
 
 use crate::compensate::arguments::CompensateArgs;
 use crate::compensate::copy::{copy, rotary_of_copy};
-use crate::convert::for_run::{in_other_language, machine_of_made};
+use crate::convert::for_run::{Source, in_other_language, machine_of_made};
 use crate::convert::targets::Named;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing};
@@ -164,7 +164,7 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         ),
     ]);
     if whole.is_empty() {
-        if long::compensate(files, job.as_ref(), (args, &writing(args)))? {
+        if long::compensate(files, job.as_ref(), args, &writing(args))? {
             return Ok(());
         }
     } else if let Ok(path) = program_path(job.as_ref(), &args.run.program) {
@@ -194,8 +194,8 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     let names_model = job.is_some_and(|j| j.job.model.is_some());
     if args.no_compensation {
         if args.run.model.is_some() || names_model {
-            let named = (job, args.run.model.as_deref());
-            setting.turned_by(rotary_of_copy(files, named, flags));
+            let named = args.run.model.as_deref();
+            setting.turned_by(rotary_of_copy(files, job, named, flags));
         }
         return copy(&setting, existing);
     }
@@ -211,10 +211,16 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     }
     refuse_lines_beyond(job, &setting)?;
     let model_named = args.run.model.as_deref();
-    give_of_model(&mut setting, files, (job, model_named), flags)?;
+    give_of_model(&mut setting, files, job, model_named, flags)?;
     let frames = setting.robot_frames()?;
-    let with = (frames.as_ref(), &mut setting.inputs);
-    let (mut machine, model) = machine_setup(files, job, model_named, flags, with)?;
+    let (mut machine, model) = machine_setup(
+        files,
+        job,
+        model_named,
+        flags,
+        frames.as_ref(),
+        &mut setting.inputs,
+    )?;
     setting.turned_by(machine.rotary.clone());
     // A program that cannot be read is reported before outputs are looked at.
     program::read_program(&setting)?;
@@ -225,17 +231,21 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
                 out: args.out.as_deref(),
                 flat: flags.expansion.flat_program.as_deref(),
             };
-            let of = (job, flags);
-            let found = in_other_language(files, of, (setting, word, named), (&model, &machine))?;
+            let source = Source {
+                setting,
+                model: &model,
+                machine: &machine,
+            };
+            let found = in_other_language(files, job, flags, source, word, named)?;
             setting = found.setting;
             (turn, findings) = (found.turn, found.findings);
-            machine = machine_of_made(files, (job, model_named, flags), &mut setting)?;
+            machine = machine_of_made(files, job, model_named, flags, &mut setting)?;
         }
         None => refuse_turn_without_words(&setting)?,
     }
     let mut outputs =
         RunOutputs::claim(Aim::Compensate, &setting.targets, existing, &setting.inputs)?;
-    let mut run = solve::solve(Aim::Compensate, (&machine, &model), &setting, flags.threads)
+    let mut run = solve::solve(Aim::Compensate, &machine, &model, &setting, flags.threads)
         .map_err(|failure| with_turn_hint(failure, (&setting, to)))?;
     run.result.warnings.extend(findings);
     run.result

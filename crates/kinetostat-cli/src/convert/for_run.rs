@@ -48,13 +48,26 @@ pub(crate) struct Converted {
     pub(crate) findings: Vec<Warning>,
 }
 
-/// The run over the program in another language; `machine` is that of the source.
+/// Program to be converted, with the machine that it is written for.
+pub(crate) struct Source<'a> {
+    pub(crate) setting: Setting,
+    pub(crate) model: &'a Model,
+    pub(crate) machine: &'a MachineSetup,
+}
+
+/// The run over the program in another language.
 fn for_run(
     job: Option<&JobFile>,
     flags: &ProgramArgs,
-    (mut setting, mut template, word): (Setting, TemplateFile, RobotWord),
-    (model, machine): (&Model, &MachineSetup),
+    source: Source<'_>,
+    mut template: TemplateFile,
+    word: RobotWord,
 ) -> Answer<Converted> {
+    let Source {
+        mut setting,
+        model,
+        machine,
+    } = source;
     let (of_robot, language) = (word.of_robot(), word.language());
     if machine.placement.scale != 1.0 {
         return Err(ErrorCode::Unused.failure("the scale of the program is not 1: a robot's program is in the robot's own millimetres; leave the scale out (--scale, scale under [placement])",
@@ -83,19 +96,19 @@ fn for_run(
         }
         FreeTurnWord::AsStated => None,
     };
-    refuse_fast_feeds(&setting, &read, (&template.template, language))?;
+    refuse_fast_feeds(&setting, &read, &template.template, language)?;
     let forces = forces_of(machine, &setting, read.path(), &Unwatched)?;
     if forces.is_some() {
         refuse_leaning_tool(&template.template)?;
         refuse_what_breaks_the_tool(forces.as_ref(), &setting)?;
     }
-    let made = made((&setting, &template), &read, turn.as_ref(), language)?;
-    let whole = whole(&setting, &made, (of_robot, language))?;
+    let made = made(&setting, &template, &read, turn.as_ref(), language)?;
+    let whole = whole(&setting, &made, of_robot, language)?;
     let axis = match (read.robot(), &turn) {
         (Some(robot), None) if states_orientation => robot.path.path.tool_axis,
         _ => up(&template.template),
     };
-    let mut found = settings_of_made(flags, &template.template, (of_robot, axis))?;
+    let mut found = settings_of_made(flags, &template.template, of_robot, axis)?;
     found.corrected = setting.correct_converted.directions();
     found.made_arm = Some(MadeArm {
         states_configuration: made.states_configuration,
@@ -115,7 +128,7 @@ fn for_run(
         .into_iter()
         .map(|warning| of_source(&setting, warning));
     findings.extend(of_cut);
-    let flat = flat(&setting, (&made, divided.as_ref()), language, &file);
+    let flat = flat(&setting, &made, divided.as_ref(), language, &file);
     drop(read);
     let out = setting.targets.program.clone().unwrap_or_default();
     let parts = made.files.iter().skip(1);
@@ -150,14 +163,15 @@ fn for_run(
 pub(crate) fn settings_of_made(
     flags: &ProgramArgs,
     template: &Template,
-    (of_robot, axis): (Language, Vector3<f64>),
+    of_robot: Language,
+    axis: Vector3<f64>,
 ) -> Answer<RobotSettings> {
     // Calls were refused, or are notes in the made program.
     let flags = RobotArgs {
         stated: StatedArgs::default(),
         ..flags.robot.clone()
     };
-    let mut found = settings(None, &flags, (of_robot, axis))?;
+    let mut found = settings(None, &flags, of_robot, axis)?;
     found.axis_is_stated = true;
     found.making.tool_axis = axis;
     // Straight rapids have this speed, but for the last digit; APT has a word for them.
@@ -169,16 +183,21 @@ pub(crate) fn settings_of_made(
 /// Converts the program of a job into the language that it names, for the template of options or job.
 pub(crate) fn in_other_language(
     files: &InputFiles,
-    (job, flags): (Option<&JobFile>, &ProgramArgs),
-    (mut setting, word, named): (Setting, RobotWord, Named<'_>),
-    source: (&Model, &MachineSetup),
+    job: Option<&JobFile>,
+    flags: &ProgramArgs,
+    mut source: Source<'_>,
+    word: RobotWord,
+    named: Named<'_>,
 ) -> Answer<Converted> {
     let file = TemplateFile::path(job, flags.robot.template.as_deref());
     let module = TemplateFile::program_name(files, file.as_deref())?;
+    let setting = &mut source.setting;
     in_language(
         &mut setting.targets,
-        (&setting.program_path, module),
-        (job, named),
+        &setting.program_path,
+        module,
+        job,
+        named,
         word.language(),
     )?;
     let out = setting.targets.program.clone().unwrap_or_default();
@@ -198,14 +217,16 @@ pub(crate) fn in_other_language(
             .push(origin::file("template", path, &bytes));
         setting.inputs.push(path.clone());
     }
-    for_run(job, flags, (setting, template, word), source)
+    for_run(job, flags, source, template, word)
 }
 
 /// Refuses what the compensation of a job refuses of its conversion, whatever is asked of the job; warnings of the conversion.
 pub(crate) fn refuse_unconvertible(
     files: &InputFiles,
-    (job, flags): (Option<&JobFile>, &ProgramArgs),
-    (model, machine): (&Model, &MachineSetup),
+    job: Option<&JobFile>,
+    flags: &ProgramArgs,
+    model: &Model,
+    machine: &MachineSetup,
 ) -> Answer<Vec<Warning>> {
     let Some(word) = job.and_then(JobFile::to) else {
         return Ok(Vec::new());
@@ -213,27 +234,33 @@ pub(crate) fn refuse_unconvertible(
     let mut flags = flags.clone();
     flags.robot.converted = true;
     let mut setting = setting(files, job, &flags, &WritingFlags::default())?;
-    give_of_model(&mut setting, files, (job, None), &flags)?;
+    give_of_model(&mut setting, files, job, None, &flags)?;
     setting.turned_by(machine.rotary.clone());
-    let source = (setting, word, Named::default());
-    let found = in_other_language(files, (job, &flags), source, (model, machine))?;
+    let source = Source {
+        setting,
+        model,
+        machine,
+    };
+    let found = in_other_language(files, job, &flags, source, word, Named::default())?;
     let mut setting = found.setting;
-    machine_of_made(files, (job, None, &flags), &mut setting)?;
+    machine_of_made(files, job, None, &flags, &mut setting)?;
     Ok(found.findings)
 }
 
 /// The machine of a made program, which brings frames of its own.
 pub(crate) fn machine_of_made(
     files: &InputFiles,
-    (job, model_named, flags): (Option<&JobFile>, Option<&str>, &ProgramArgs),
+    job: Option<&JobFile>,
+    model_named: Option<&str>,
+    flags: &ProgramArgs,
     setting: &mut Setting,
 ) -> Answer<MachineSetup> {
     let mut frames = setting.robot_frames()?;
     if let Some(frames) = &mut frames {
         frames.converted = true;
     }
-    let with = (frames.as_ref(), &mut setting.inputs);
-    Ok(machine_setup(files, job, model_named, flags, with)?.0)
+    let inputs = &mut setting.inputs;
+    Ok(machine_setup(files, job, model_named, flags, frames.as_ref(), inputs)?.0)
 }
 
 /// The made program in one file.
@@ -246,7 +273,8 @@ struct Whole {
 fn whole(
     setting: &Setting,
     made: &Made,
-    (of_robot, language): (Language, MakeLanguage),
+    of_robot: Language,
+    language: MakeLanguage,
 ) -> Answer<Whole> {
     let name = setting.program_name.as_str();
     if let [(_, bytes)] = made.files.as_slice() {
@@ -297,7 +325,8 @@ fn on_motions(
 pub(crate) fn refuse_fast_feeds(
     setting: &Setting,
     read: &ReadProgram<'_>,
-    (template, language): (&Template, MakeLanguage),
+    template: &Template,
+    language: MakeLanguage,
 ) -> Answer<()> {
     if matches!(language, MakeLanguage::Apt | MakeLanguage::Gcode) {
         return Ok(());
@@ -450,7 +479,8 @@ fn findings(setting: &Setting, made: &Made) -> Vec<Warning> {
 /// Maps lines of the made program to the source: each from that of the motion on it or after it.
 fn flat(
     setting: &Setting,
-    (made, divided): (&Made, Option<&Divided>),
+    made: &Made,
+    divided: Option<&Divided>,
     language: MakeLanguage,
     file: &SourceFile,
 ) -> FlatProgram {

@@ -34,7 +34,8 @@ pub(crate) struct Asked<'m> {
 
 /// Puts joint values in place of the poses of a made table; what is to be said of them.
 pub(crate) fn as_joints(
-    (setting, template): (&Setting, &Template),
+    setting: &Setting,
+    template: &Template,
     read: &ReadProgram<'_>,
     asked: &Asked<'_>,
     made: &mut Made,
@@ -58,7 +59,7 @@ pub(crate) fn as_joints(
     start.near = match &template.start_joints_deg {
         Some(joints) => joints.clone(),
         None => {
-            let commands = first_joints(read, template, (&mechanism, &base));
+            let commands = first_joints(read, template, &mechanism, &base);
             let commands = commands.map_err(|failure| setting.within(failure))?;
             arm.shown_deg(&commands).unwrap_or_default()
         }
@@ -128,7 +129,8 @@ fn source_line(made: &Made, line: usize) -> usize {
 fn first_joints(
     read: &ReadProgram<'_>,
     template: &Template,
-    (mechanism, base): (&Mechanism, &Isometry3<f64>),
+    mechanism: &Mechanism,
+    base: &Isometry3<f64>,
 ) -> Answer<[f64; 6]> {
     let mut moves = read.path().moves.iter();
     let first = moves.find(|motion| motion.known != Knowledge::Nothing);

@@ -16,7 +16,8 @@ use crate::ui::fault_list::failure_of;
 
 /// The program in the other language.
 pub(crate) fn made(
-    (setting, template): (&Setting, &TemplateFile),
+    setting: &Setting,
+    template: &TemplateFile,
     read: &ReadProgram<'_>,
     turned: Option<&FreeTurn>,
     language: MakeLanguage,

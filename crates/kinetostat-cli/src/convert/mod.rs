@@ -84,8 +84,8 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     }
     let machine = match job.as_ref().filter(|job| job.job.model.is_some()) {
         Some(job) => {
-            let with = (None, &mut setting.inputs);
-            Some(machine_setup(&files, Some(job), None, &flags(args), with)?.0)
+            let inputs = &mut setting.inputs;
+            Some(machine_setup(&files, Some(job), None, &flags(args), None, inputs)?.0)
         }
         None => None,
     };
@@ -112,12 +112,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     let plot = args.turn_plot.as_deref();
     let plot = plot.map(|path| claimed.claim("picture of the turn", path));
     let plot = plot.transpose()?;
-    with_arm(
-        &files,
-        (job.as_ref(), args),
-        &mut setting,
-        &template.template,
-    )?;
+    with_arm(&files, job.as_ref(), args, &mut setting, &template.template)?;
     let read = read_program(&setting)?;
     let states_orientation = (read.path().moves.iter()).any(|motion| motion.tool_turn.is_some());
     if let Some(machine) = machine.filter(|_| !states_orientation) {
@@ -135,10 +130,10 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     if args.to == TargetWord::Joints {
         with_all_digits(&mut template.template);
     }
-    let mut made = made((&setting, &template), &read, turned.as_ref(), language)?;
+    let mut made = made(&setting, &template, &read, turned.as_ref(), language)?;
     // A robot's own program may not tell cuts from rapids either.
     if read.robot().is_none() {
-        refuse_fast_feeds(&setting, &read, (&template.template, language))?;
+        refuse_fast_feeds(&setting, &read, &template.template, language)?;
     }
     let mut said: Vec<String> = lies.map(|warning| warning.message).into_iter().collect();
     if args.to == TargetWord::Joints {
@@ -148,8 +143,8 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
             model: &model,
             rows: args.joint_rows,
         };
-        let of = (&setting, &template.template);
-        said.push(as_joints(of, &read, &asked, &mut made)?);
+        let text = as_joints(&setting, &template.template, &read, &asked, &mut made)?;
+        said.push(text);
     }
     said.extend(turned.as_ref().map(|turned| turned.description.clone()));
     let mut rest = made.files.iter();
@@ -166,7 +161,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     if let (Some(plot), Some(turned)) = (plot, &turned) {
         claimed.fill(plot, turns_svg(&turned.choice).as_bytes())?;
     }
-    let mut text = answer(&setting, &read, &made, &template, (&args.out, args.to));
+    let mut text = answer(&setting, &read, &made, &template, &args.out, args.to);
     for sentence in said {
         text.push('\n');
         text.push_str(&wrapped(&format!("{sentence}."), 0));
@@ -178,7 +173,8 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
 /// The arm of a program that is a table of joint values, with the tool of the template where there is one.
 fn with_arm(
     files: &InputFiles,
-    (job, args): (Option<&JobFile>, &ConvertArgs),
+    job: Option<&JobFile>,
+    args: &ConvertArgs,
     setting: &mut Setting,
     template: &Template,
 ) -> Answer<()> {
@@ -207,7 +203,7 @@ fn with_arm(
     let rows = &mut source.settings.joint_rows;
     *rows = rows.or(args.joint_rows.map(BetweenRows::from));
     let model = args.model.as_deref();
-    give_arm(Some(source), files, (job, model), &flags(args))
+    give_arm(Some(source), files, job, model, &flags(args))
 }
 
 /// Options of a run that a conversion needs.
@@ -246,7 +242,8 @@ fn answer(
     read: &ReadProgram<'_>,
     made: &Made,
     template: &TemplateFile,
-    (out, to): (&Path, TargetWord),
+    out: &Path,
+    to: TargetWord,
 ) -> String {
     let kept = &made.kept;
     let mut text = wrapped(

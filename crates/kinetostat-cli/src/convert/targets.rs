@@ -24,8 +24,10 @@ pub(crate) struct Named<'o> {
 /// folder of its own.
 pub(crate) fn in_language(
     targets: &mut OutputPaths,
-    (program, module): (&Path, Option<String>),
-    (job, options): (Option<&JobFile>, Named<'_>),
+    program: &Path,
+    module: Option<String>,
+    job: Option<&JobFile>,
+    options: Named<'_>,
     language: MakeLanguage,
 ) -> Answer<()> {
     let in_job = job.map(|j| &j.job.output);

@@ -65,9 +65,9 @@ fn title(a: &CurveAnswer) -> String {
 
 /// A branch in parts that are stable in one way.
 fn parts(points: &[PointAnswer], specials: &[&NamedPoint], by_load: bool) -> Vec<PlotLine> {
-    let place = |p: &PointAnswer| (p.shown[0], p.shown[1]);
+    let place = |p: &PointAnswer| [p.shown[0], p.shown[1]];
     let mut lines: Vec<PlotLine> = Vec::new();
-    let mut start = |how: Holds, first: (f64, f64)| {
+    let mut start = |how: Holds, first: [f64; 2]| {
         let (name, colour, dashed) = match how {
             Holds::Both => ("stable", 0, false),
             Holds::Motion if by_load => ("stable only if the motion is prescribed", 1, true),
@@ -78,7 +78,7 @@ fn parts(points: &[PointAnswer], specials: &[&NamedPoint], by_load: bool) -> Vec
             name: name.into(),
             colour,
             dashed,
-            points: vec![first],
+            points: vec![first.into()],
         });
         lines.len() - 1
     };
@@ -88,7 +88,7 @@ fn parts(points: &[PointAnswer], specials: &[&NamedPoint], by_load: bool) -> Vec
     // The first point may be a bifurcation itself: what follows decides.
     let mut how = holds(points.get(1).unwrap_or(first));
     let mut open = start(how, place(first));
-    let mut list: Vec<(usize, (f64, f64))> = Vec::new();
+    let mut list: Vec<(usize, [f64; 2])> = Vec::new();
     for i in 1..points.len() {
         let (before, here) = (place(&points[i - 1]), place(&points[i]));
         let next = holds(&points[i]);
@@ -102,25 +102,24 @@ fn parts(points: &[PointAnswer], specials: &[&NamedPoint], by_load: bool) -> Vec
             .iter()
             .map(|s| place(&s.point))
             .find(|s| inside(*s, before, here))
-            .unwrap_or((0.5 * (before.0 + here.0), 0.5 * (before.1 + here.1)));
+            .unwrap_or([0, 1].map(|k| 0.5 * (before[k] + here[k])));
         list.push((open, at));
         how = next;
         open = start(how, at);
         list.push((open, here));
     }
     for (line, point) in list {
-        lines[line].points.push(point);
+        lines[line].points.push(point.into());
     }
     lines
 }
 
 /// True if a point lies in the box of two others, with some room: a limit point lies a little
 /// outside.
-fn inside(p: (f64, f64), a: (f64, f64), b: (f64, f64)) -> bool {
+fn inside(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> bool {
     let room = |a: f64, b: f64| 0.3 * (a - b).abs() + 1e-9 * (a.abs() + b.abs());
     let within = |x: f64, a: f64, b: f64| x >= a.min(b) - room(a, b) && x <= a.max(b) + room(a, b);
-    let (near_x, near_y) = (within(p.0, a.0, b.0), within(p.1, a.1, b.1));
-    near_x && near_y
+    (0..2).all(|k| within(p[k], a[k], b[k]))
 }
 
 fn marks(a: &CurveAnswer) -> Vec<PlotMark> {

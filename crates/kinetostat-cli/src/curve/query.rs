@@ -254,8 +254,10 @@ fn load_pattern(
     constant: Wrench,
 ) -> Answer<()> {
     let end = wrench(
-        ("--force", args.force.as_deref()),
-        ("--moment", args.moment.as_deref()),
+        "--force",
+        args.force.as_deref(),
+        "--moment",
+        args.moment.as_deref(),
     )?;
     let mut loads = Vec::new();
     for text in &args.grow {

@@ -82,18 +82,20 @@ fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     // The first lines of a long program identify it.
     let path = program_path(job.as_ref(), &args.program)?;
     if let Some(first) = with_first_lines(&files, &path, &args.program)
-        && run_along(args, (&first, job.as_ref()), (is_job, true))?
+        && run_along(args, &first, job.as_ref(), is_job, true)?
     {
         return Ok(());
     }
-    run_along(args, (&files, job.as_ref()), (is_job, false)).map(drop)
+    run_along(args, &files, job.as_ref(), is_job, false).map(drop)
 }
 
 /// The deflections along a program; in parts, whether it can be run so.
 fn run_along(
     args: &DeflectArgs,
-    (files, job): (&InputFiles, Option<&JobFile>),
-    (is_job, in_parts): (bool, bool),
+    files: &InputFiles,
+    job: Option<&JobFile>,
+    is_job: bool,
+    in_parts: bool,
 ) -> Answer<bool> {
     let named = (!is_job).then_some(args.subject.as_str());
     let flags = WritingFlags {
@@ -124,15 +126,15 @@ fn run_along(
     chosen.json = args.json.clone().filter(|p| p != Path::new("-"));
     refuse_unused(&args.program, &chosen)?;
     let existing = Existing::forced(args.program.force_overwrite);
-    let model_of_job = (job, named);
-    give_of_model(&mut setting, files, model_of_job, &args.program)?;
+    give_of_model(&mut setting, files, job, named, &args.program)?;
     let frames = setting.robot_frames()?;
     let (machine, model) = machine_setup(
         files,
         job,
         named,
         &args.program,
-        (frames.as_ref(), &mut setting.inputs),
+        frames.as_ref(),
+        &mut setting.inputs,
     )?;
     setting.turned_by(machine.rotary.clone());
     if in_parts {
@@ -142,18 +144,19 @@ fn run_along(
             say_as_a_whole(&setting.program_path, &args.program, &whole);
             return Ok(false);
         }
-        let of = (job, existing, chosen);
-        return part_by_part(args, (&machine, &model), setting, of);
+        return part_by_part(args, &machine, &model, setting, job, existing, chosen);
     }
     refuse_lines_beyond(job, &setting)?;
     program::read_program(&setting)?;
-    refuse_unconvertible(files, (job, &args.program), (&model, &machine))?;
+    refuse_unconvertible(files, job, &args.program, &model, &machine)?;
     let mut outputs = RunOutputs::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
     let turn = solve::turn(&machine, &setting)?;
     let mut run = solve::turned(
         Aim::Analyse,
-        (&machine, &model),
-        (&setting, turn.as_ref()),
+        &machine,
+        &model,
+        &setting,
+        turn.as_ref(),
         args.program.threads,
     )?;
     if let Some(turn) = &turn {
@@ -179,9 +182,12 @@ fn run_along(
 /// The deflections along a long program, and whether it can be read in parts, of which the setting has the first lines.
 fn part_by_part(
     args: &DeflectArgs,
-    (machine, model): (&MachineSetup, &Model),
+    machine: &MachineSetup,
+    model: &Model,
     mut setting: Setting,
-    (job, existing, targets): (Option<&JobFile>, Existing, OutputPaths),
+    job: Option<&JobFile>,
+    existing: Existing,
+    targets: OutputPaths,
 ) -> Answer<bool> {
     let mut outputs = claim(Aim::Analyse, &targets, existing, &setting.inputs)?;
     outputs.list(args.program.all_points, model);
@@ -202,7 +208,7 @@ fn part_by_part(
     let (mut run, done) = run.run(&mut outputs)?;
     let found = run_warnings::of_run(model, job, &args.program);
     run.result.warnings.extend(found);
-    done.fill(&mut outputs, (&run.result.run_inputs, &targets))?;
+    done.fill(&mut outputs, &run.result.run_inputs, &targets)?;
     done.or_kept(outputs.fill_result(&run, &setting))?;
     let paths = done.commit(outputs.files)?;
     done.remove();

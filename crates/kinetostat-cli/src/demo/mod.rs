@@ -143,7 +143,7 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     let job = JobFile::read(&files, &at("job.toml"))?;
     let mut setting = setting(&files, Some(&job), &flags, &WritingFlags::default())?;
     let mut inputs = Vec::new();
-    let (machine, model) = machine_setup(&files, Some(&job), None, &flags, (None, &mut inputs))?;
+    let (machine, model) = machine_setup(&files, Some(&job), None, &flags, None, &mut inputs)?;
     // The demo's own inputs are written together with its results.
     setting.inputs.clear();
     let existing = if args.force_overwrite {
@@ -156,7 +156,7 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
         let index = outputs.files.claim(what, path)?;
         outputs.files.fill(index, text.as_bytes())?;
     }
-    let mut run = solve::solve(Aim::Compensate, (&machine, &model), &setting, args.threads)?;
+    let mut run = solve::solve(Aim::Compensate, &machine, &model, &setting, args.threads)?;
     // The demo may run again on another day and finds its own files.
     run.result.run_inputs.date = None;
     outputs.list(false, &model);

@@ -12,20 +12,27 @@ use crate::ui::failure::{Answer, Failing, Failure};
 
 /// The wrench of two options.
 pub(crate) fn wrench(
-    force: (&str, Option<&[f64]>),
-    moment: (&str, Option<&[f64]>),
+    force_option: &str,
+    force: Option<&[f64]>,
+    moment_option: &str,
+    moment: Option<&[f64]>,
 ) -> Answer<Wrench> {
-    let part = |(name, values): (&str, Option<&[f64]>)| {
+    let part = |name: &str, values: Option<&[f64]>| {
         values.map_or_else(|| Ok(Vector3::zeros()), |v| vector(name, v))
     };
-    Ok(Wrench::new(part(force)?, part(moment)?))
+    Ok(Wrench::new(
+        part(force_option, force)?,
+        part(moment_option, moment)?,
+    ))
 }
 
 /// The wrench that acts all the time.
 pub(crate) fn constant(args: &EndArgs) -> Answer<Wrench> {
     wrench(
-        ("--constant-force", args.constant_force.as_deref()),
-        ("--constant-moment", args.constant_moment.as_deref()),
+        "--constant-force",
+        args.constant_force.as_deref(),
+        "--constant-moment",
+        args.constant_moment.as_deref(),
     )
 }
 

@@ -4,7 +4,7 @@ use kinetostat_diagnostic::ErrorCode;
 use std::f64::consts::PI;
 
 use kinetostat::Pose;
-use kinetostat_cutting::{CutError, Engagement, Rotation, Side, Stock, Tool};
+use kinetostat_cutting::{CutError, Engagement, Rotation, Side, Stock};
 use kinetostat_machining::{CutQuestion, EngagementSource, Placement};
 use nalgebra::UnitQuaternion;
 
@@ -16,7 +16,7 @@ use crate::force::material::{Made, correction, material, materials};
 use crate::force::refusal::{refused, within};
 use crate::force::tool::{CutTool, tool_of, tool_table};
 use crate::job::arguments::ProgramArgs;
-use crate::job::cut::cutters::{Cutter, called, cutters, extremes};
+use crate::job::cut::cutters::{Cutter, ToolRange, called, cutters};
 use crate::job::cut::material::{MaterialSetup, material as material_of_job};
 use crate::job::cut::question::{curve as curve_of_job, spindle_speed, where_it_cuts};
 use crate::job::cut::refused::refused as refused_in_job;
@@ -49,10 +49,10 @@ pub(super) fn cut(
     let mut read = FilesOfCut::default();
     let mut of_tools = Vec::new();
     let cutters = match (args.tool.given(), job) {
-        (false, Some(j)) => cutters(files, j, flags, (&mut read, &mut of_tools))?,
-        _ => own_cutters(files, &args.tool, (job, flags), &mut read)?,
+        (false, Some(j)) => cutters(files, j, flags, &mut read, &mut of_tools)?,
+        _ => own_cutters(files, &args.tool, job, flags, &mut read)?,
     };
-    let Some((smallest, largest)) = extremes(&cutters) else {
+    let Some(range) = ToolRange::of(&cutters) else {
         return Err(ErrorCode::Missing.failure("no tool: the program calls none of the table (T); give --tool-number for the whole program",
         ));
     };
@@ -62,7 +62,7 @@ pub(super) fn cut(
             no_factors(&args.material)?;
             material_of_job(files, j, table.get_ref(), &mut read)?
         }
-        _ => own_material(files, args, (smallest, largest), &mut read)?,
+        _ => own_material(files, args, range, &mut read)?,
     };
     let mut words = material.words.clone();
     words.append(&mut of_tools);
@@ -74,10 +74,9 @@ pub(super) fn cut(
             (None, Some((j, table))) => refused_in_job(j, &table.get_ref().name, &error),
             _ => refused(&error),
         })?;
-    let (engagement, source_words) = match (own_engagement(&args.stock, (smallest, largest))?, job)
-    {
+    let (engagement, source_words) = match (own_engagement(&args.stock, range)?, job) {
         (Some(own), _) => own,
-        (None, Some(j)) => where_it_cuts((files, &mut read), j, (smallest, largest))?
+        (None, Some(j)) => where_it_cuts(files, &mut read, j, range)?
             .ok_or_else(|| ErrorCode::Missing.failure(NO_STOCK))?,
         (None, None) => return Err(ErrorCode::Missing.failure(NO_STOCK)),
     };
@@ -191,7 +190,7 @@ fn no_factors(args: &MaterialArgs) -> Answer<()> {
 fn own_material(
     files: &InputFiles,
     args: &EngagementArgs,
-    (smallest, largest): (&Tool, &Tool),
+    tools: ToolRange<'_>,
     read: &mut FilesOfCut,
 ) -> Answer<MaterialSetup> {
     let own = args.material.materials.as_deref();
@@ -206,11 +205,11 @@ fn own_material(
             return Err(ErrorCode::Missing
                 .failure("--correct-speed needs --rpm: the cutting speed follows from it"));
         }
-        (true, Some(_)) if smallest.diameter_mm() < largest.diameter_mm() => {
+        (true, Some(_)) if tools.is_mixed() => {
             return Err(ErrorCode::Unused.failure("--correct-speed: tools of different diameters have different cutting speeds; leave it out, or look at one tool after the other",
             ));
         }
-        (true, Some(rpm)) => Some(1e-3 * PI * largest.diameter_mm() * rpm),
+        (true, Some(rpm)) => Some(1e-3 * PI * tools.largest.diameter_mm() * rpm),
     };
     let correction = correction(&args.material, Made::Milled, None, speed);
     MaterialSetup::new(&found, correction).map_err(|error| refused(&error))
@@ -219,7 +218,8 @@ fn own_material(
 fn own_cutters(
     files: &InputFiles,
     args: &ToolArgs,
-    (job, flags): (Option<&JobFile>, &ProgramArgs),
+    job: Option<&JobFile>,
+    flags: &ProgramArgs,
     read: &mut FilesOfCut,
 ) -> Answer<Vec<Cutter>> {
     if let Some(path) = &args.tool_table {
@@ -253,13 +253,13 @@ fn own_cutters(
 /// Returns the engagement of the tools, if options state it.
 fn own_engagement(
     args: &StockArgs,
-    tools: (&Tool, &Tool),
+    tools: ToolRange<'_>,
 ) -> Answer<Option<(EngagementSource, String)>> {
     if let Some(corners) = &args.block_mm {
         return block(corners, args, tools).map(Some);
     }
     match (args.width_mm, args.depth_mm) {
-        (Some(width), Some(depth)) => everywhere((width, depth), args.part, tools).map(Some),
+        (Some(width), Some(depth)) => everywhere(width, depth, args.part, tools).map(Some),
         _ => Ok(None),
     }
 }
@@ -267,7 +267,7 @@ fn own_engagement(
 fn block(
     corners: &[f64],
     args: &StockArgs,
-    tools: (&Tool, &Tool),
+    tools: ToolRange<'_>,
 ) -> Answer<(EngagementSource, String)> {
     let [x0, y0, z0, x1, y1, z1] = corners[..] else {
         return Err(ErrorCode::Value.failure("--block-mm needs six numbers"));
@@ -292,7 +292,7 @@ fn block(
         let what = format!("{}: {}", error.quantity, error.found);
         refuse(About::Stock, &what, &format!("expected {}", error.expected))
     })?;
-    let words = resolution.of_stock(&stock, tools.0)?;
+    let words = resolution.of_stock(&stock, tools.smallest)?;
     let [a, b] = [low, high].map(|corner| corner.map(short).join(", "));
     let words = format!("stock: a block from ({a}) to ({b}) mm; {words}");
     Ok((EngagementSource::Stock(Box::new(stock)), words))
@@ -300,15 +300,16 @@ fn block(
 
 /// Applies one constant cut to all feed moves.
 fn everywhere(
-    (width, depth): (f64, f64),
+    width: f64,
+    depth: f64,
     part: Option<PartWord>,
-    (smallest, largest): (&Tool, &Tool),
+    tools: ToolRange<'_>,
 ) -> Answer<(EngagementSource, String)> {
-    if smallest.diameter_mm() < largest.diameter_mm() {
+    if tools.is_mixed() {
         return Err(ErrorCode::Missing.failure("--width-mm: a width of cut is another engagement for tools of different diameters; give --block-mm, from which each tool has its own",
         ));
     }
-    let radius = smallest.radius_mm();
+    let radius = tools.smallest.radius_mm();
     let side = match part {
         Some(PartWord::Left) => Side::Left,
         Some(PartWord::Right) => Side::Right,

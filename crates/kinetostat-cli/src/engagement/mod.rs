@@ -69,7 +69,7 @@ pub(crate) fn run(args: &EngagementArgs) -> Answer<()> {
     let walked = cut.question.along_and_left(path, &progress);
     let (forces, left) = walked.map_err(|failure| stopped_or_within(failure, &setting))?;
     progress.finish();
-    let answer = answer_of(&setting, &cut, (&read, &forces), left.as_ref());
+    let answer = answer_of(&setting, &cut, &read, &forces, left.as_ref());
     let flat = setting.flat.as_ref();
     let mut text = text::answer_text(&answer);
     text.push_str(&listed_under(&text, flat));
@@ -91,7 +91,8 @@ pub(crate) fn run(args: &EngagementArgs) -> Answer<()> {
 fn answer_of(
     setting: &Setting,
     cut: &CutSetup,
-    (read, forces): (&ReadProgram<'_>, &ForceAlongPath),
+    read: &ReadProgram<'_>,
+    forces: &ForceAlongPath,
     left: Option<&Stock>,
 ) -> EngagementAnswer {
     let path = read.path();
@@ -248,15 +249,15 @@ fn map(a: &EngagementAnswer, whole: &Stock, left: &Stock, path: &Path) -> Sectio
     let heights = heights(whole, left, &x, &y);
     let cells = y.iter().flat_map(|y| x.iter().map(move |x| (*x, *y)));
     let cells = cells
-        .map(|(x, y)| look(whole, left, (x, y), heights))
+        .map(|(x, y)| look(whole, left, x, y, heights))
         .collect();
     let grey_label = match heights {
-        Some((least, most)) if most - least > SAME_MM => format!(
+        Some([least, most]) if most - least > SAME_MM => format!(
             "not cut, {} (dark) to {} mm (light) high",
             short(least),
             short(most)
         ),
-        Some((_, top)) => format!("not cut, top at z = {} mm", short(top)),
+        Some([_, top]) => format!("not cut, top at z = {} mm", short(top)),
         None => String::new(),
     };
     Section {
@@ -276,33 +277,33 @@ fn map(a: &EngagementAnswer, whole: &Stock, left: &Stock, path: &Path) -> Sectio
 }
 
 /// Stock height at an uncut place; none where it is cut.
-fn kept(whole: &Stock, left: &Stock, (x, y): (f64, f64)) -> Option<f64> {
+fn kept(whole: &Stock, left: &Stock, x: f64, y: f64) -> Option<f64> {
     let (before, after) = (whole.top_mm(x, y)?, left.top_mm(x, y)?);
     (before - after <= SAME_MM).then_some(after)
 }
 
 /// Smallest and largest height of the uncut surface.
-fn heights(whole: &Stock, left: &Stock, x: &[f64], y: &[f64]) -> Option<(f64, f64)> {
+fn heights(whole: &Stock, left: &Stock, x: &[f64], y: &[f64]) -> Option<[f64; 2]> {
     let places = y.iter().flat_map(|y| x.iter().map(move |x| (*x, *y)));
     places
-        .filter_map(|at| kept(whole, left, at))
+        .filter_map(|(x, y)| kept(whole, left, x, y))
         .fold(None, |found, top| match found {
-            None => Some((top, top)),
-            Some((least, most)) => Some((least.min(top), most.max(top))),
+            None => Some([top, top]),
+            Some([least, most]) => Some([least.min(top), most.max(top)]),
         })
 }
 
-fn look(whole: &Stock, left: &Stock, at: (f64, f64), heights: Option<(f64, f64)>) -> Cell {
-    let Some(before) = whole.top_mm(at.0, at.1) else {
+fn look(whole: &Stock, left: &Stock, x: f64, y: f64, heights: Option<[f64; 2]>) -> Cell {
+    let Some(before) = whole.top_mm(x, y) else {
         return Cell::Value(f64::NAN);
     };
-    if let Some(top) = kept(whole, left, at) {
+    if let Some(top) = kept(whole, left, x, y) {
         return Cell::Grey(match heights {
-            Some((least, most)) if most - least > SAME_MM => (top - least) / (most - least),
+            Some([least, most]) if most - least > SAME_MM => (top - least) / (most - least),
             _ => EVEN,
         });
     }
-    match left.top_mm(at.0, at.1) {
+    match left.top_mm(x, y) {
         // Depths are round numbers, and so are the ends of colours: rounding must not speckle them.
         Some(after) => Cell::Value(1e-4 * (1e4 * (before - after)).round()),
         None => Cell::Other(0),

@@ -56,15 +56,15 @@ pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
             let chain = with_loads(serial_chain(query)?, &args.end)?;
             let q = equilibria_query(&moves_of(&chain), args)?;
             Ok(Box::new(move |head, stage| {
-                let all = of_chain(&chain, &q, stage)?;
-                Ok(answer_of(&chain, &q, all, head).with_plausibility_warnings(size))
+                let (all, warnings) = of_chain(&chain, &q, stage)?;
+                Ok(answer_of(&chain, &q, all, warnings, head).with_plausibility_warnings(size))
             }))
         } else {
             let machine = CommandedMachine::of(query, &args.end)?;
             let q = equilibria_query(&machine.moves, args)?;
             Ok(Box::new(move |head, stage| {
-                let all = of_machine(&machine, &q, stage)?;
-                Ok(answer_of(&machine, &q, all, head).with_plausibility_warnings(size))
+                let (all, warnings) = of_machine(&machine, &q, stage)?;
+                Ok(answer_of(&machine, &q, all, warnings, head).with_plausibility_warnings(size))
             }))
         }
     };
@@ -86,7 +86,8 @@ pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
 fn answer_of<S: Subject>(
     subject: &S,
     q: &EquilibriaQuery,
-    (all, mut warnings): (Equilibria<S::Equilibrium>, Vec<Warning>),
+    all: Equilibria<S::Equilibrium>,
+    mut warnings: Vec<Warning>,
     head: AnswerHead,
 ) -> EquilibriaAnswer {
     warnings.extend(large_load(&q.end.wrench));

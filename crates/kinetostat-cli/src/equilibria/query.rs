@@ -23,8 +23,10 @@ pub(crate) struct EquilibriaQuery {
 
 pub(crate) fn equilibria_query(moves: &Moves, args: &EquilibriaArgs) -> Answer<EquilibriaQuery> {
     let acting = wrench(
-        ("--force", args.force.as_deref()),
-        ("--moment", args.moment.as_deref()),
+        "--force",
+        args.force.as_deref(),
+        "--moment",
+        args.moment.as_deref(),
     )? + constant(&args.end)?;
     let loaded = acting.0.amax() > 0.0 || args.force.is_some() || args.moment.is_some();
     let part = |name: &str, values: &Option<Vec<f64>>| {

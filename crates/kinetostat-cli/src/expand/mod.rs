@@ -53,7 +53,7 @@ pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
     }
     let mut settings = settings(None, &args.with, &reading(None, &args.reading)?)?;
     settings.options.reading.moving_calls = moving_subprograms(None, &args.stated)?;
-    let done = flattened(bytes, (&args.program, &name), &settings)?;
+    let done = flattened(bytes, &args.program, &name, &settings)?;
     let mut inputs = vec![args.program.clone()];
     inputs.extend(done.paths.iter().cloned());
     let claimed = args.out.as_deref().map(|out| {
@@ -102,7 +102,7 @@ fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<(
         before: None,
         system_frames: None,
         reading: Reading::new(),
-        settings: robot_settings(None, &flags, (language, Vector3::z()))?,
+        settings: robot_settings(None, &flags, language, Vector3::z())?,
     };
     let called = with_called_files(&mut source, &args.program, &folders)?;
     source.settings.reading.slash_blocks = slash_blocks(None, &args.reading);

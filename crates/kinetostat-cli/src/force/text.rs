@@ -73,8 +73,10 @@ fn what_is_cut(a: &ForceAnswer) -> Vec<(&'static str, String)> {
         (
             "cut",
             cut_text(
-                (c.width_mm, c.depth_mm),
-                (c.part, c.counter_clockwise),
+                c.width_mm,
+                c.depth_mm,
+                c.part,
+                c.counter_clockwise,
                 a.tool.diameter_mm,
             ),
         ),
@@ -133,8 +135,10 @@ pub(crate) fn tool_text(t: &ToolAnswer) -> String {
 }
 
 pub(crate) fn cut_text(
-    (width_mm, depth_mm): (f64, f64),
-    (part, counter_clockwise): (&str, bool),
+    width_mm: f64,
+    depth_mm: f64,
+    part: &str,
+    counter_clockwise: bool,
     diameter_mm: f64,
 ) -> String {
     let part = match part {

@@ -53,7 +53,9 @@ pub(crate) struct MeasuredMode {
 pub(crate) fn answer(
     args: &FrfArgs,
     modes: usize,
-    (query, machine, damping): (&PlaceQuery, &VibratingMachine, &Damping),
+    query: &PlaceQuery,
+    machine: &VibratingMachine,
+    damping: &Damping,
     responses: &[MeasuredResponse],
 ) -> Answer<FitAnswer> {
     let band = [args.frequencies[0], args.frequencies[1]];
@@ -119,7 +121,7 @@ pub(crate) fn answer(
         shapes_compared: compared,
         scaled: match args.scale.is_empty() {
             true => None,
-            false => Some(scaled(args, (query, damping), &measured)?),
+            false => Some(scaled(args, query, damping, &measured)?),
         },
     })
 }

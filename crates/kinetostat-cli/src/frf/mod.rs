@@ -58,7 +58,7 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
     let mut warnings = query.warnings.clone();
     warnings.extend(subject::limits(&machine, &posture));
     warnings.extend(measured::warnings(&measured));
-    warnings.extend(of(args, (&machine, &damping), &frequencies));
+    warnings.extend(of(args, &machine, &damping, &frequencies));
     let receptance = response.over(&frequencies).map_err(subject::refused)?;
     let finite = |m: &Receptance| m.iter().all(|v| v.re.is_finite() && v.im.is_finite());
     if let Some(at) = receptance.iter().position(|m| !finite(m)) {
@@ -79,7 +79,9 @@ pub(crate) fn run(args: &FrfArgs) -> Answer<()> {
         Some(modes) => Some(fit::answer(
             args,
             modes,
-            (&query, &machine, &damping),
+            &query,
+            &machine,
+            &damping,
             &measured.responses,
         )?),
         None => None,
@@ -143,7 +145,8 @@ fn natural(machine: &VibratingMachine) -> Answer<(Vec<f64>, Option<Vec<f64>>)> {
 /// Checks the damping and the frequencies.
 fn of(
     args: &FrfArgs,
-    (machine, damping): (&VibratingMachine, &Damping),
+    machine: &VibratingMachine,
+    damping: &Damping,
     frequencies: &[f64],
 ) -> Vec<Warning> {
     let mut found = Vec::new();

@@ -51,7 +51,8 @@ const NO_MODES: f64 = 0.5;
 /// Scales the numbers that are asked for until the model has the measured frequencies, and damping ratios where damping is scaled.
 pub(crate) fn scaled(
     args: &FrfArgs,
-    (query, law): (&PlaceQuery, &Damping),
+    query: &PlaceQuery,
+    law: &Damping,
     measured: &MeasuredModes,
 ) -> Answer<ScaledAnswer> {
     check_options(args)?;
@@ -83,7 +84,7 @@ pub(crate) fn scaled(
     let of_damping = before.len() > machine_count;
     let machine_of = |values: &[f64]| -> Result<(VibratingMachine, Option<Vec<f64>>), Lost> {
         let (of_machine, rest) = values.split_at(machine_count);
-        let machine = machine_of(args, query, &model, (of_machine, &held))?;
+        let machine = machine_of(args, query, &model, of_machine, &held)?;
         let ratios = of_damping.then(|| {
             let numbers = before[machine_count..].iter().zip(rest);
             let law = numbers.fold(law.clone(), |law, (own, value)| {
@@ -183,7 +184,8 @@ fn machine_of(
     args: &FrfArgs,
     query: &PlaceQuery,
     model: &ParametricModel,
-    (values, held): (&[f64], &Held),
+    values: &[f64],
+    held: &Held,
 ) -> Result<VibratingMachine, Lost> {
     let tool = straight_tool(1e-3 * args.machine.tool_length_mm.unwrap_or(0.0));
     let mechanism = model

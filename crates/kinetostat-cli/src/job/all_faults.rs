@@ -60,13 +60,7 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
     // Each turn takes something out or puts something in that was not there before; the bound is for what nobody thought of.
     for _ in 0..10 * MOST {
         let Err(error) = read(&tree) else { break };
-        if !put_right(
-            &source,
-            &mut tree,
-            &error,
-            &mut found,
-            (&mut taken, &mut put),
-        ) {
+        if !put_right(&source, &mut tree, &error, &mut found, &mut taken, &mut put) {
             break;
         }
     }
@@ -85,7 +79,8 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
                 Some(job),
                 query.model,
                 query.program,
-                (None, &mut inputs),
+                None,
+                &mut inputs,
             )
             .map(drop)
         },
@@ -104,7 +99,8 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
                 Some(&job),
                 Some("orthoglide"),
                 query.program,
-                (None, &mut inputs),
+                None,
+                &mut inputs,
             )
             .map(drop)
         },
@@ -141,13 +137,9 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
     if !first.is_of_program
         && let Ok(job) = JobFile::read(files, path)
         && let Ok(mut setting) = setting(files, Some(&job), query.program, &query.writing)
-        && let Err(failure) = give_of_model(
-            &mut setting,
-            files,
-            (Some(&job), query.model),
-            query.program,
-        )
-        .and_then(|()| program::read_program(&setting).map(drop))
+        && let Err(failure) =
+            give_of_model(&mut setting, files, Some(&job), query.model, query.program)
+                .and_then(|()| program::read_program(&setting).map(drop))
     {
         add(&mut found, failure);
     }
@@ -183,7 +175,8 @@ fn put_right(
     tree: &mut Spanned<DeTable<'_>>,
     error: &toml::de::Error,
     found: &mut Vec<Failure>,
-    (taken, put): (&mut Places, &mut Places),
+    taken: &mut Places,
+    put: &mut Places,
 ) -> bool {
     let span = error.span().unwrap_or(0..0);
     // A placeholder that was not accepted is no number: its whole table is removed.

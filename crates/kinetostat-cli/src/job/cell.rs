@@ -122,8 +122,10 @@ impl Cell {
     pub(crate) fn add_tools(
         &self,
         tools: &mut Vec<(u32, Mechanism, ProgramLoad)>,
-        (mechanism, load): (&Mechanism, ProgramLoad),
-        (words, given): (&mut String, &mut Vec<ToolGiven>),
+        mechanism: &Mechanism,
+        load: ProgramLoad,
+        words: &mut String,
+        given: &mut Vec<ToolGiven>,
     ) -> Answer<()> {
         for (number, tool) in &self.template.tools {
             let Some(pose) = tool.frame.pose.as_ref().map(in_metres) else {

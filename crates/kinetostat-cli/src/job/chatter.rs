@@ -44,7 +44,8 @@ impl ChatterSetting {
         let table = job.and_then(|j| Some(j.job.chatter.as_ref()?.get_ref()));
         let ratio = chosen(
             job,
-            ("damping_ratio", None),
+            "damping_ratio",
+            None,
             table.and_then(|t| t.damping_ratio.as_ref()),
             |ratio| match ratio > 0.0 && ratio < 1.0 {
                 true => Ok(ratio),
@@ -55,19 +56,22 @@ impl ChatterSetting {
         )?;
         let modes_up_to_hz = chosen(
             job,
-            ("--modes-up-to-hz", flags.modes_up_to_hz),
+            "--modes-up-to-hz",
+            flags.modes_up_to_hz,
             table.and_then(|t| t.modes_up_to_hz.as_ref()),
             above_zero,
         )?;
         let every_mm = chosen(
             job,
-            ("--every-mm", flags.every_mm),
+            "--every-mm",
+            flags.every_mm,
             table.and_then(|t| t.every_mm.as_ref()),
             above_zero,
         )?;
         let most_places = chosen(
             job,
-            ("--most-places", flags.most_places),
+            "--most-places",
+            flags.most_places,
             table.and_then(|t| t.most_places.as_ref()),
             |count| match (1..=1_000_000).contains(&count) {
                 true => Ok(count),

@@ -42,7 +42,8 @@ pub(crate) fn features(job: Option<&JobFile>) -> Answer<Vec<Feature>> {
         }
         let tolerance_mm = chosen(
             Some(job),
-            ("tolerance_um", None),
+            "tolerance_um",
+            None,
             own.tolerance_um.as_ref(),
             micrometres,
         )?;

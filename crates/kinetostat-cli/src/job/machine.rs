@@ -108,7 +108,8 @@ pub(crate) fn machine_setup(
     job: Option<&JobFile>,
     flag_model: Option<&str>,
     flags: &ProgramArgs,
-    (frames, inputs): (Option<&RobotFrames>, &mut Vec<PathBuf>),
+    frames: Option<&RobotFrames>,
+    inputs: &mut Vec<PathBuf>,
 ) -> Answer<(MachineSetup, Model)> {
     let named = read_model(files, job, flag_model)?;
     inputs.extend(named.path);
@@ -128,12 +129,12 @@ pub(crate) fn machine_setup(
     let tool_is_of_cell = of_cell.is_some();
     (tool, tool_words) = of_cell.unwrap_or((tool, tool_words));
     if let Some(frames) = frames {
-        (tool, tool_words) = tool_of_robot(frames, job, flags, (tool, tool_words))?;
+        (tool, tool_words) = tool_of_robot(frames, job, flags, tool, tool_words)?;
     }
     let mass = job.map(|j| {
         let table = &j.job.tool;
-        let stated = (table.mass_kg.as_ref(), table.centre_of_mass_mm.as_ref());
-        tool_mass(j, stated, &tool)
+        let centre = table.centre_of_mass_mm.as_ref();
+        tool_mass(j, table.mass_kg.as_ref(), centre, &tool)
     });
     let mass = mass.transpose()?.flatten();
     if let Some(cell) = &cell {
@@ -180,20 +181,27 @@ pub(crate) fn machine_setup(
     let mut tools = numbered_tools(
         job,
         flags,
-        (&bare, &model.mechanism),
+        &bare,
+        &model.mechanism,
         &mut tool_words,
-        (&mut given, &mut tool_masses),
+        &mut given,
+        &mut tool_masses,
     )?;
     if let Some(cell) = &cell {
-        let described = (&mut tool_words, &mut given);
-        cell.add_tools(&mut tools, (&model.mechanism, load), described)?;
+        cell.add_tools(
+            &mut tools,
+            &model.mechanism,
+            load,
+            &mut tool_words,
+            &mut given,
+        )?;
     }
     if let Some(frames) = frames.filter(|frames| frames.converted && !tools.is_empty()) {
-        tools = tools_of_converted(frames, &model.mechanism, load, (&tools, &mut given))?;
+        tools = tools_of_converted(frames, &model.mechanism, load, &tools, &mut given)?;
     }
     if let Some(frames) = frames.filter(|frames| tools.is_empty() && frames.states_orientation) {
-        let described = (&mut tool_words, &mut given);
-        tools = tools_of_robot(frames, &model.mechanism, load, described)?;
+        let words = &mut tool_words;
+        tools = tools_of_robot(frames, &model.mechanism, load, words, &mut given)?;
     }
     let run_inputs = {
         let mut run_inputs = RunInputs::default();

@@ -16,18 +16,20 @@ use crate::ui::failure::Answer;
 pub(crate) fn give_of_model(
     setting: &mut Setting,
     files: &InputFiles,
-    model: (Option<&JobFile>, Option<&str>),
+    job: Option<&JobFile>,
+    flag_model: Option<&str>,
     flags: &ProgramArgs,
 ) -> Answer<()> {
-    give_arm(setting.robot.as_mut(), files, model, flags)?;
-    give_axes(setting, files, model, flags)
+    give_arm(setting.robot.as_mut(), files, job, flag_model, flags)?;
+    give_axes(setting, files, job, flag_model, flags)
 }
 
 /// Gives a SINUMERIK or Heidenhain program the rotary axes of the model; others stay as they are.
 fn give_axes(
     setting: &mut Setting,
     files: &InputFiles,
-    (job, flag_model): (Option<&JobFile>, Option<&str>),
+    job: Option<&JobFile>,
+    flag_model: Option<&str>,
     flags: &ProgramArgs,
 ) -> Answer<()> {
     let Some(source) = &setting.robot else {

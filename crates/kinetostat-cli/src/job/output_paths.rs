@@ -103,7 +103,9 @@ pub(crate) fn output_paths(
     job: Option<&JobFile>,
     flags: &ProgramArgs,
     writing: &WritingFlags<'_>,
-    (program, bytes, form): (&Path, &[u8], Form),
+    program: &Path,
+    bytes: &[u8],
+    form: Form,
 ) -> Answer<OutputPaths> {
     let from_job = |flag: Option<&Path>, pick: fn(&Job) -> Option<&Spanned<String>>| {
         if let Some(path) = flag {

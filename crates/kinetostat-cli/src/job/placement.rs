@@ -59,7 +59,8 @@ pub(crate) fn placement(
     let tool = flag.flatten().or(in_job).unwrap_or(home);
     let scale = chosen(
         job,
-        ("--scale", flags.scale),
+        "--scale",
+        flags.scale,
         table.scale.as_ref(),
         scale_of_program,
     )?

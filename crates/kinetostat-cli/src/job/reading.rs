@@ -24,7 +24,8 @@ pub(crate) fn reading(job: Option<&JobFile>, flags: &ReadingArgs) -> Answer<Read
     };
     if let Some(mm) = chosen(
         job,
-        ("--arc-tolerance", flags.arc_tolerance),
+        "--arc-tolerance",
+        flags.arc_tolerance,
         table.arc_tolerance_mm.as_ref(),
         arc_tolerance,
     )? {
@@ -47,13 +48,13 @@ pub(crate) fn reading(job: Option<&JobFile>, flags: &ReadingArgs) -> Answer<Read
         reading.tools = Some(numbers.collect());
         reading.tool_before_first = j.job.tool.length_mm.is_some() || j.job.tool.pose.is_some();
     }
-    let start = (&flags.start_position_mm, table.start_position_mm);
-    reading.start_position_mm = place("--start-position-mm", start)?;
-    let zero = (&flags.machine_zero_mm, table.machine_zero_mm);
-    reading.machine_zero_mm = place("--machine-zero-mm", zero)?;
+    let start = &flags.start_position_mm;
+    reading.start_position_mm = place("--start-position-mm", start, table.start_position_mm)?;
+    let zero = &flags.machine_zero_mm;
+    reading.machine_zero_mm = place("--machine-zero-mm", zero, table.machine_zero_mm)?;
     reading.reference_points_mm = [
-        place("--g28-mm", (&flags.g28_mm, table.g28_mm))?,
-        place("--g30-mm", (&flags.g30_mm, table.g30_mm))?,
+        place("--g28-mm", &flags.g28_mm, table.g28_mm)?,
+        place("--g30-mm", &flags.g30_mm, table.g30_mm)?,
     ];
     let left_out = job.is_some_and(|j| j.lacks("machine_zero_mm"));
     let no_zero = reading.machine_zero_mm.is_none() && !left_out;
@@ -112,7 +113,8 @@ pub(crate) fn reading(job: Option<&JobFile>, flags: &ReadingArgs) -> Answer<Read
 /// A place by an option, which goes before the job file's.
 fn place(
     option: &str,
-    (flag, table): (&Option<Vec<f64>>, Option<[f64; 3]>),
+    flag: &Option<Vec<f64>>,
+    table: Option<[f64; 3]>,
 ) -> Answer<Option<Vector3<f64>>> {
     match (flag, table) {
         (Some(values), _) => vector(option, values).map(Some),

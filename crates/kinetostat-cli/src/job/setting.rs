@@ -229,7 +229,8 @@ pub(crate) fn setting(
     write.header = (header && !writing.no_header).then(Vec::new);
     let max_blocks_per_second = chosen(
         job,
-        ("--max-blocks-per-second", writing.max_blocks_per_second),
+        "--max-blocks-per-second",
+        writing.max_blocks_per_second,
         job.and_then(|j| j.job.tolerances.max_blocks_per_second.as_ref()),
         above_zero,
     )?;
@@ -241,7 +242,7 @@ pub(crate) fn setting(
         || path.display().to_string(),
         |n| n.to_string_lossy().into_owned(),
     );
-    let expand = wanted(job, (&flags.expansion, flags.robot.converted), &reading)?;
+    let expand = wanted(job, &flags.expansion, flags.robot.converted, &reading)?;
     reading.of_fanuc_run = expand
         .as_ref()
         .is_some_and(|expand| expand.options.dialect == Dialect::Fanuc);
@@ -251,7 +252,7 @@ pub(crate) fn setting(
     };
     let program = files.bytes("program", &path);
     let known = program.as_deref().unwrap_or_default();
-    let mut targets = output_paths(job, flags, writing, (&path, known, form))?;
+    let mut targets = output_paths(job, flags, writing, &path, known, form)?;
     // The last, so that nothing else is hidden by a program that is not there.
     let program = program?;
     let lines = line_count(&program);
@@ -261,8 +262,7 @@ pub(crate) fn setting(
         program_files.push(own.read.clone());
         inputs.push(own.path.clone());
     }
-    let named = (path.as_path(), program_name.as_str(), program.as_slice());
-    let robot = robot_source(files, job, flags, named)?;
+    let robot = robot_source(files, job, flags, &path, &program_name, &program)?;
     // A search for faults of the job leaves out those of its program.
     let mut expand = expand.filter(|_| !job.is_some_and(|j| j.is_searched));
     if robot.is_none() {
@@ -332,7 +332,7 @@ pub(crate) fn setting(
     let (program, flat) = match (robot_flat, expand) {
         (Some((program, flat)), _) => (program, Some(flat)),
         (None, Some(expand)) => {
-            let done = flattened(program, (&path, &program_name), &expand)?;
+            let done = flattened(program, &path, &program_name, &expand)?;
             program_files.extend(done.read);
             inputs.extend(done.paths);
             expansion_warnings = done.expanded.warnings;
@@ -451,13 +451,15 @@ fn tolerances(
     };
     let path_mm = chosen(
         job,
-        ("--tolerance-um", writing.tolerance_um),
+        "--tolerance-um",
+        writing.tolerance_um,
         tolerances.path_um.as_ref(),
         micrometres,
     )?;
     let chord_mm = chosen(
         job,
-        ("--chord-tolerance-um", flags.chord_tolerance_um),
+        "--chord-tolerance-um",
+        flags.chord_tolerance_um,
         tolerances.chord_um.as_ref(),
         micrometres,
     )?;
@@ -469,7 +471,8 @@ fn tolerances(
     };
     write.min_block_mm = chosen(
         job,
-        ("--min-block-mm", writing.min_block_mm),
+        "--min-block-mm",
+        writing.min_block_mm,
         tolerances.min_block_mm.as_ref(),
         |mm| match (1e-6..=1000.0).contains(&mm) {
             true => Ok(mm),
@@ -478,7 +481,8 @@ fn tolerances(
     )?;
     if let Some(factor) = chosen(
         job,
-        ("--max-feed-factor", writing.max_feed_factor),
+        "--max-feed-factor",
+        writing.max_feed_factor,
         tolerances.max_feed_factor.as_ref(),
         |factor| match (1.0..=1000.0).contains(&factor) {
             true => Ok(factor),
@@ -491,7 +495,8 @@ fn tolerances(
     }
     if let Some(mm) = chosen(
         job,
-        ("--backward-step-um", writing.backward_step_um),
+        "--backward-step-um",
+        writing.backward_step_um,
         tolerances.backward_step_um.as_ref(),
         micrometres,
     )? {
@@ -499,7 +504,8 @@ fn tolerances(
     }
     write.decimals = chosen(
         job,
-        ("--decimals", writing.decimals),
+        "--decimals",
+        writing.decimals,
         tolerances.decimals.as_ref(),
         |decimals| {
             if (3..=8).contains(&decimals) {

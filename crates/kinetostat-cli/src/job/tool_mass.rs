@@ -24,7 +24,8 @@ pub(crate) const MASSES_KG: RangeInclusive<f64> = 1e-3..=5000.0;
 /// Mass that a job states of a tool, with its centre halfway to the tip where none is stated.
 pub(crate) fn tool_mass(
     j: &JobFile,
-    (mass, centre): (Option<&Spanned<f64>>, Option<&Spanned<[f64; 3]>>),
+    mass: Option<&Spanned<f64>>,
+    centre: Option<&Spanned<[f64; 3]>>,
     tool: &Pose,
 ) -> Answer<Option<ToolMass>> {
     let Some(mass) = mass else {

@@ -19,9 +19,11 @@ use crate::ui::numbers::{short, triple};
 pub(crate) fn numbered_tools(
     job: Option<&JobFile>,
     flags: &ProgramArgs,
-    (bare, mechanism): (&Model, &Mechanism),
+    bare: &Model,
+    mechanism: &Mechanism,
     words: &mut String,
-    (given, masses): (&mut Vec<ToolGiven>, &mut Vec<(Option<u32>, ToolMass)>),
+    given: &mut Vec<ToolGiven>,
+    masses: &mut Vec<(Option<u32>, ToolMass)>,
 ) -> Answer<Vec<(u32, Mechanism, ProgramLoad)>> {
     let mut tools: Vec<(u32, Mechanism, ProgramLoad)> = Vec::new();
     let Some(j) = job.filter(|j| !j.job.tools.is_empty()) else {
@@ -51,8 +53,8 @@ pub(crate) fn numbered_tools(
         }
         let (pose, text) = tool_of(j, tool.length_mm.as_ref(), tool.pose.as_ref())?;
         let load = load(job, Some(tool.load.as_ref().unwrap_or(&j.job.load)), flags)?;
-        let stated = (tool.mass_kg.as_ref(), tool.centre_of_mass_mm.as_ref());
-        let own = tool_mass(j, stated, &pose)?;
+        let centre = tool.centre_of_mass_mm.as_ref();
+        let own = tool_mass(j, tool.mass_kg.as_ref(), centre, &pose)?;
         let mass = own.or(masses.first().filter(|m| m.0.is_none()).map(|m| m.1));
         let kg = mass.map_or_else(String::new, |m| format!(", {} kg", short(m.mass_kg)));
         all.push(format!("tool {}: {text}{kg}", tool.number));

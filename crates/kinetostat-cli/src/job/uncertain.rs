@@ -58,7 +58,8 @@ pub(crate) fn uncertainty(
     };
     let machines = chosen(
         job,
-        ("--machines", flags.machines),
+        "--machines",
+        flags.machines,
         table.and_then(|(_, table)| table.machines.as_ref()),
         |count| match (FEWEST..=MOST_DRAWS).contains(&count) {
             true => Ok(count),

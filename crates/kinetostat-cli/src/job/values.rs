@@ -13,7 +13,8 @@ pub(crate) struct NotAllowed(pub(crate) &'static str);
 /// given.
 pub(crate) fn chosen<T: Copy + std::fmt::Display, U>(
     job: Option<&JobFile>,
-    (flag, given): (&str, Option<T>),
+    flag: &str,
+    given: Option<T>,
     written: Option<&Spanned<T>>,
     allowed: impl Fn(T) -> Result<U, NotAllowed>,
 ) -> Answer<Option<U>> {

@@ -75,7 +75,7 @@ pub(crate) fn run(args: &LobesArgs, given: &Given) -> Answer<()> {
     let modes_hz: Vec<f64> = modes_hz.into_iter().filter(in_band).collect();
     if let Some((left_out, rpm)) = diagram.left_out() {
         let at = format!("at {} rpm", number(rpm, 4));
-        warnings.push(left_out_warning(&left_out, swinging, (&at, rpm)));
+        warnings.push(left_out_warning(&left_out, swinging, &at, rpm));
     }
     let off = machine.lost_coupling(&damping, band_hz);
     warnings.extend(subject::lost_coupling(off.map_err(subject::refused)?));

@@ -55,7 +55,9 @@ impl Manifest {
         let both = self.0.iter().zip(&other.0);
         let found = both.into_iter().find(|(a, b)| a != b);
         let longer = || (self.0.len() != other.0.len()).then(|| "the settings".to_owned());
-        found.map(|(a, b)| difference(a, b)).or_else(longer)
+        found
+            .map(|((name, kept), (_, now))| difference(name, kept, now))
+            .or_else(longer)
     }
 }
 

@@ -4,11 +4,11 @@
 const LONGEST: usize = 80;
 
 /// A field's name, with the part of it that differs and both values: the run that was kept has `kept`, this one `now`.
-pub(crate) fn difference((name, kept): &(String, String), (_, now): &(String, String)) -> String {
+pub(crate) fn difference(name: &str, kept: &str, now: &str) -> String {
     let [of_kept, of_now] = [kept, now].map(|text| text.lines().collect::<Vec<_>>());
     let first = of_kept.iter().zip(&of_now).position(|(a, b)| a != b);
     let Some(first) = first else {
-        return name.clone();
+        return name.to_owned();
     };
     let [was, is] = [&of_kept, &of_now].map(|lines| word_at(lines, first));
     let place = place(&of_kept, first);
@@ -23,7 +23,7 @@ pub(crate) fn difference((name, kept): &(String, String), (_, now): &(String, St
         false => String::new(),
     };
     match (place.is_empty(), said.is_empty()) {
-        (true, true) => name.clone(),
+        (true, true) => name.to_owned(),
         (true, false) => format!("{name} ({said})"),
         (false, true) => format!("{name} ({})", place.join(".")),
         (false, false) => format!("{name} ({}: {said})", place.join(".")),
@@ -101,10 +101,7 @@ mod tests {
 
     #[test]
     fn the_innermost_name_and_both_values_are_said() {
-        let between = |a: String, b: String| {
-            let name = "how it is written".to_owned();
-            difference(&(name.clone(), a), &(name, b))
-        };
+        let between = |a: String, b: String| difference("how it is written", &a, &b);
         let whole = between(said(0.001, None), said(0.002, None));
         assert_eq!(
             whole,

@@ -56,9 +56,10 @@ impl LongFiles {
     pub(crate) fn fill(
         &self,
         outputs: &mut RunOutputs,
-        (run_inputs, targets): (&RunInputs, &OutputPaths),
+        run_inputs: &RunInputs,
+        targets: &OutputPaths,
     ) -> Answer<()> {
-        self.or_kept(self.fill_all(outputs, (run_inputs, targets)))
+        self.or_kept(self.fill_all(outputs, run_inputs, targets))
     }
 
     /// An answer about putting outputs in place; where they cannot be, it is said that nothing is lost.
@@ -69,7 +70,8 @@ impl LongFiles {
     fn fill_all(
         &self,
         outputs: &mut RunOutputs,
-        (run_inputs, targets): (&RunInputs, &OutputPaths),
+        run_inputs: &RunInputs,
+        targets: &OutputPaths,
     ) -> Answer<()> {
         if let Some(index) = outputs.program {
             let sha256 = put(&self.program, &mut outputs.files, index)?;
@@ -80,7 +82,7 @@ impl LongFiles {
         }
         if let Some(index) = outputs.points {
             match outputs.points_as_parquet {
-                true => put_as_parquet(&self.points, run_inputs, (&mut outputs.files, index))?,
+                true => put_as_parquet(&self.points, run_inputs, &mut outputs.files, index)?,
                 false => drop(put(&self.points, &mut outputs.files, index)?),
             }
         }
@@ -123,7 +125,8 @@ fn put(from: &Partial, outputs: &mut Outputs, index: usize) -> Answer<String> {
 fn put_as_parquet(
     from: &Partial,
     run_inputs: &RunInputs,
-    (outputs, index): (&mut Outputs, usize),
+    outputs: &mut Outputs,
+    index: usize,
 ) -> Answer<()> {
     let mut reader = from.watched()?;
     points_parquet::from_csv(run_inputs, &mut reader, |bytes| {

@@ -178,8 +178,8 @@ impl<'a> LongRun<'a> {
     }
 
     fn answered<T>(&self, result: Result<T, RunError>, part: &Part) -> Answer<T> {
-        let with = (self.machine, self.model);
-        result.map_err(|error| failure_of(error, with, self.setting, &part.path))
+        result
+            .map_err(|error| failure_of(error, self.machine, self.model, self.setting, &part.path))
     }
 
     /// A first look at every part: what takes hours to be solved everywhere is refused in seconds.
@@ -196,7 +196,9 @@ impl<'a> LongRun<'a> {
         let threads = self.flags.threads;
         side_by_side(
             |index| self.part(index, progress),
-            (&order, self.survey.part_count(), threads),
+            &order,
+            self.survey.part_count(),
+            threads,
             progress,
             |part, place, watch| {
                 let looked = self.with_part(part, place, false, |task| {
@@ -304,14 +306,14 @@ impl<'a> LongRun<'a> {
                 whole
             }
         };
-        self.pass(work, kept, whole, (outputs, progress))?;
+        self.pass(work, kept, whole, outputs, progress)?;
         if !work.state.as_it_is && work.state.merged.leaves_as_it_is() {
-            work.begin_anew(kept, (self.survey, self.setting), &whole)?;
+            work.begin_anew(kept, self.survey, self.setting, &whole)?;
             let whole = OfWhole {
                 as_it_is: true,
                 ..whole
             };
-            self.pass(work, kept, whole, (outputs, progress))?;
+            self.pass(work, kept, whole, outputs, progress)?;
         }
         Ok(())
     }
@@ -322,7 +324,8 @@ impl<'a> LongRun<'a> {
         work: &mut Work<'a>,
         kept: &Checkpoint,
         whole: OfWhole,
-        (outputs, progress): (&RunOutputs, &Progress),
+        outputs: &RunOutputs,
+        progress: &Progress,
     ) -> Answer<()> {
         let every = match self.flags.part_lines {
             Some(_) => Duration::ZERO,
@@ -342,7 +345,9 @@ impl<'a> LongRun<'a> {
         let threads = self.flags.threads;
         side_by_side(
             |index| self.part(index, progress),
-            (&order, count, threads),
+            &order,
+            count,
+            threads,
             progress,
             |part, place, watch| {
                 self.with_part(part, place, whole.as_it_is, |task| {
@@ -351,14 +356,14 @@ impl<'a> LongRun<'a> {
                         Aim::Compensate => compensate_part(task, Some(&whole), watch),
                     };
                     let mut run = self.answered(run, part)?;
-                    let listed = (outputs, count, part.first_line() == 1);
-                    let mut rows = self.rows(&run, listed)?;
+                    let begins = part.first_line() == 1;
+                    let mut rows = self.rows(&run, outputs, count, begins)?;
                     if place.wait_for_turn() != Standing::Next {
                         return Ok(false);
                     }
                     let (work, last) = &mut *locked(&taking);
                     if work.state.merged.join(task, &mut run) {
-                        rows = self.rows(&run, listed)?;
+                        rows = self.rows(&run, outputs, count, begins)?;
                     }
                     work.take(task, run, &rows)?;
                     progress.advance(part.next_line() - 1);
@@ -373,17 +378,15 @@ impl<'a> LongRun<'a> {
     }
 
     /// The rows of a part in the table of points, if there is to be one.
-    fn rows(
-        &self,
-        run: &Run,
-        (outputs, count, begins): (&RunOutputs, usize, bool),
-    ) -> Answer<Vec<u8>> {
+    fn rows(&self, run: &Run, outputs: &RunOutputs, count: usize, begins: bool) -> Answer<Vec<u8>> {
         let mut rows = Vec::new();
         if outputs.points.is_some() {
             points_table::part(
                 &run.result.run_inputs,
                 &run.points,
-                (&outputs.listing, count, begins),
+                &outputs.listing,
+                count,
+                begins,
                 |bytes| {
                     rows.extend_from_slice(bytes);
                     Ok(())

@@ -44,7 +44,9 @@ impl Drop for EndsInPanic<'_, '_> {
 /// however many threads there are. The failure of the first part that fails is that of all.
 pub(crate) fn side_by_side<'o>(
     read: impl Fn(usize) -> Answer<Part> + Sync,
-    (order, count, threads): (&PartsInOrder<'o>, usize, Option<usize>),
+    order: &PartsInOrder<'o>,
+    count: usize,
+    threads: Option<usize>,
     progress: &Progress,
     work: impl Fn(&Part, &PlaceInOrder<'_, 'o>, &dyn Watch) -> Answer<bool> + Sync,
 ) -> Answer<()> {

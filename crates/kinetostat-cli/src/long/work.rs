@@ -70,7 +70,8 @@ impl<'s> Work<'s> {
     pub(crate) fn begin_anew(
         &mut self,
         kept: &Checkpoint,
-        (survey, setting): (&'s Survey, &'s Setting),
+        survey: &'s Survey,
+        setting: &'s Setting,
         whole: &OfWhole,
     ) -> Answer<()> {
         *self = Self::nothing(kept, survey, setting)?;

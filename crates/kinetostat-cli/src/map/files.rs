@@ -51,7 +51,9 @@ impl Files {
     pub(crate) fn draw(
         &self,
         outputs: &mut Outputs,
-        (task, answer, picture): (&MapTask<'_>, &MapAnswer, &Picture),
+        task: &MapTask<'_>,
+        answer: &MapAnswer,
+        picture: &Picture,
     ) -> Answer<()> {
         let Some(index) = self.plot else {
             return Ok(());

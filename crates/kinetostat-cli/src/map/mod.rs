@@ -101,12 +101,12 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     let solved = Solved {
         task: &task,
         cases,
-        warnings: warnings(&model, &loads, &task, (&figures, &orientations)),
+        warnings: warnings(&model, &loads, &task, &figures, &orientations),
         figures,
         further,
     };
-    let answer = answer((args, &model, path.as_deref()), solved);
-    files.draw(&mut outputs, (&task, &answer, &picture))?;
+    let answer = answer(args, &model, path.as_deref(), solved);
+    files.draw(&mut outputs, &task, &answer, &picture)?;
     files.write_fields(&mut outputs, gathering)?;
     let paths = outputs.commit()?;
     let text = text::answer_text(&answer, &orientations.first);
@@ -175,7 +175,8 @@ fn warnings(
     model: &Model,
     loads: &[Wrench],
     task: &MapTask<'_>,
-    (figures, orientations): (&Figures, &Orientations),
+    figures: &Figures,
+    orientations: &Orientations,
 ) -> Vec<Warning> {
     let mut warnings: Vec<Warning> = of_model(model).collect();
     warnings.extend(no_potential(&model.mechanism));
@@ -212,7 +213,7 @@ struct Solved<'a> {
 }
 
 /// The answer, of the model that the options name, and its file if it is one.
-fn answer((args, model, path): (&MapArgs, &Model, Option<&Path>), solved: Solved<'_>) -> MapAnswer {
+fn answer(args: &MapArgs, model: &Model, path: Option<&Path>, solved: Solved<'_>) -> MapAnswer {
     let (task, figures) = (solved.task, solved.figures);
     let mut solving = figures.solving.clone();
     solving.one_by_one_because = task.one_by_one_because();

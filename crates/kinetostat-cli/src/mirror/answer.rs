@@ -106,7 +106,8 @@ fn scatter_of_repeatability(found: &Measurement, stated: Option<Repeatability>) 
 impl MeasurementResult {
     pub(crate) fn of(
         file: &str,
-        (found, stated): (&Measurement, Option<Repeatability>),
+        found: &Measurement,
+        stated: Option<Repeatability>,
         features: Vec<FeatureMeasured>,
     ) -> Self {
         Self {
@@ -145,7 +146,8 @@ pub(crate) struct FeatureMeasured {
 /// Features of a job in a measurement.
 pub(crate) fn of_features(
     features: &[Feature],
-    (nominal, measured): (&NominalPath<'_>, &Measurement),
+    nominal: &NominalPath<'_>,
+    measured: &Measurement,
     smoothing_mm: f64,
 ) -> Vec<FeatureMeasured> {
     let one = |feature: &Feature| {

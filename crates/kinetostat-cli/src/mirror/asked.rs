@@ -43,7 +43,7 @@ pub(crate) fn asked(
         ));
     }
     if names_model(job) {
-        give_of_model(&mut setting, files, (job, None), &flags)?;
+        give_of_model(&mut setting, files, job, None, &flags)?;
     }
     setting.reading.tools = None;
     Ok(setting)

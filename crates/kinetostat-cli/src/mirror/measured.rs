@@ -23,8 +23,11 @@ const COARSEST_UM: f64 = 1e3;
 /// and kinks by twice that.
 pub(crate) fn measurements(
     files: &InputFiles,
-    (job, args): (Option<&JobFile>, &MirrorArgs),
-    (nominal, settings, hash): (&NominalPath<'_>, &MeasureSettings, &str),
+    job: Option<&JobFile>,
+    args: &MirrorArgs,
+    nominal: &NominalPath<'_>,
+    settings: &MeasureSettings,
+    hash: &str,
     tolerance_mm: f64,
 ) -> Answer<Vec<(MeasuredFile, Measurement)>> {
     let one = |path: &PathBuf| {

@@ -102,8 +102,11 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
     }
     let measured = measurements(
         &files,
-        (job.as_ref(), args),
-        (&nominal, &settings, &hash),
+        job.as_ref(),
+        args,
+        &nominal,
+        &settings,
+        &hash,
         tolerance_mm,
     )?;
     let relaxation = args.relaxation.unwrap_or(1.0);
@@ -114,20 +117,24 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
     };
     let outcome = outcome.map_err(Failure::from)?;
     let field = MirrorField::new(&nominal, &state).map_err(|error| of_state(error.into()))?;
-    let made = written(machine.as_ref(), (&setting, &read), &field)?;
+    let made = written(machine.as_ref(), &setting, &read, &field)?;
     refuse_beyond_limits(&setting, &state, &made)?;
 
     let model = machine.map(|machine| machine.run_inputs.model);
-    let answer = answer_of(
-        (&setting, &nominal),
-        model,
-        (&state, outcome, relaxation, args.was_run),
-        (&measured, known),
-        &made,
-    );
+    let trial = Trial {
+        setting: &setting,
+        nominal: &nominal,
+        state: &state,
+        outcome,
+        relaxation,
+        was_run: args.was_run,
+        measured: &measured,
+        known,
+    };
+    let answer = trial.answer(model, &made);
     let to_screen = claimed.to_screen;
     let first = measured.first().map(|(_, first)| first);
-    let paths = claimed.filled((&setting, &made), &answer, (&state, first))?;
+    let paths = claimed.filled(&setting, &made, &answer, &state, first)?;
     let text = format!("{}{}", text::answer_text(&answer), outputs::written(&paths));
     json::print_answer(&text, &answer, to_screen)
 }
@@ -161,8 +168,14 @@ fn machine_of_job(
     }
     let frames = setting.robot_frames()?;
     let flags = flags_of(args, &args.program);
-    let with = (frames.as_ref(), &mut setting.inputs);
-    let (machine, _) = machine_setup(files, job, None, &flags, with)?;
+    let (machine, _) = machine_setup(
+        files,
+        job,
+        None,
+        &flags,
+        frames.as_ref(),
+        &mut setting.inputs,
+    )?;
     setting.turned_by(machine.rotary.clone());
     Ok(Some(machine))
 }
@@ -211,9 +224,11 @@ impl Claimed {
     /// All of them written and put in place.
     fn filled(
         mut self,
-        (setting, made): (&Setting, &FieldCorrection),
+        setting: &Setting,
+        made: &FieldCorrection,
         answer: &MirrorAnswer,
-        (state, first): (&MirrorState, Option<&Measurement>),
+        state: &MirrorState,
+        first: Option<&Measurement>,
     ) -> Answer<Vec<PathBuf>> {
         let files = setting.as_files(&made.written)?;
         self.outputs.fill(self.program, &files.program)?;
@@ -238,40 +253,58 @@ impl Claimed {
     }
 }
 
-fn answer_of(
-    (setting, nominal): (&Setting, &NominalPath<'_>),
-    model: Option<String>,
-    (state, outcome, relaxation, was_run): (&MirrorState, Outcome, f64, bool),
-    (measured, known): (&[(MeasuredFile, Measurement)], Option<Repeatability>),
-    made: &FieldCorrection,
-) -> MirrorAnswer {
-    let last = state.trials.last();
-    let smoothing_mm = state.settings.smoothing_mm;
-    MirrorAnswer {
-        schema: 1,
-        kinetostat_version: env!("CARGO_PKG_VERSION"),
-        program: setting.program_name.clone(),
-        model,
-        trial: state.trials.len(),
-        relaxation,
-        smoothing_mm,
-        register: state.settings.register,
-        outcome,
-        measurements: measured
-            .iter()
-            .map(|(file, found)| {
-                let features = of_features(&setting.features, (nominal, found), smoothing_mm);
-                MeasurementResult::of(&file.name, (found, known), features)
-            })
-            .collect(),
-        left_mm: last.map_or(f64::NAN, |trial| trial.left_mm),
-        floor_mm: last.and_then(|trial| trial.floor_mm),
-        left_in_trials_mm: state.trials.iter().map(|trial| trial.left_mm).collect(),
-        convergence: last.and_then(|trial| trial.convergence),
-        shows_correction: last.and_then(|trial| trial.shows_correction),
-        was_run,
-        largest_correction_mm: largest_correction_mm(state),
-        accounting: made.written.accounting.clone(),
+/// A trial: the measured program and the correction that follows from it.
+struct Trial<'a> {
+    setting: &'a Setting,
+    nominal: &'a NominalPath<'a>,
+    state: &'a MirrorState,
+    outcome: Outcome,
+    relaxation: f64,
+    was_run: bool,
+    measured: &'a [(MeasuredFile, Measurement)],
+    known: Option<Repeatability>,
+}
+
+impl Trial<'_> {
+    fn answer(self, model: Option<String>, made: &FieldCorrection) -> MirrorAnswer {
+        let Self {
+            setting,
+            nominal,
+            state,
+            outcome,
+            relaxation,
+            was_run,
+            measured,
+            known,
+        } = self;
+        let last = state.trials.last();
+        let smoothing_mm = state.settings.smoothing_mm;
+        MirrorAnswer {
+            schema: 1,
+            kinetostat_version: env!("CARGO_PKG_VERSION"),
+            program: setting.program_name.clone(),
+            model,
+            trial: state.trials.len(),
+            relaxation,
+            smoothing_mm,
+            register: state.settings.register,
+            outcome,
+            measurements: measured
+                .iter()
+                .map(|(file, found)| {
+                    let features = of_features(&setting.features, nominal, found, smoothing_mm);
+                    MeasurementResult::of(&file.name, found, known, features)
+                })
+                .collect(),
+            left_mm: last.map_or(f64::NAN, |trial| trial.left_mm),
+            floor_mm: last.and_then(|trial| trial.floor_mm),
+            left_in_trials_mm: state.trials.iter().map(|trial| trial.left_mm).collect(),
+            convergence: last.and_then(|trial| trial.convergence),
+            shows_correction: last.and_then(|trial| trial.shows_correction),
+            was_run,
+            largest_correction_mm: largest_correction_mm(state),
+            accounting: made.written.accounting.clone(),
+        }
     }
 }
 

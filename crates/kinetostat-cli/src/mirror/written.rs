@@ -14,7 +14,8 @@ use crate::ui::progress::Progress;
 /// The program with its correction, on top of a model's where there is one.
 pub(crate) fn written(
     machine: Option<&MachineSetup>,
-    (setting, read): (&Setting, &ReadProgram<'_>),
+    setting: &Setting,
+    read: &ReadProgram<'_>,
     field: &MirrorField<'_>,
 ) -> Answer<FieldCorrection> {
     let progress = Progress::new();

@@ -41,7 +41,7 @@ pub(crate) fn run(args: &ModesArgs) -> Answer<()> {
     let machine = subject::machine(&query, &posture, &held)?;
     let answer = answer(args, &query, &posture, &machine, &damping)?;
     let svg = match args.outputs.plot.is_some() {
-        true => drawn(&query, &posture, &machine, (&damping, args.modes))?,
+        true => drawn(&query, &posture, &machine, &damping, args.modes)?,
         false => String::new(),
     };
     let shown = Shown {
@@ -112,7 +112,8 @@ fn drawn(
     query: &PlaceQuery,
     posture: &Posture,
     machine: &VibratingMachine,
-    (damping, modes): (&Damping, usize),
+    damping: &Damping,
+    modes: usize,
 ) -> Answer<String> {
     let modes = modes.min(MOST);
     let complex = machine.complex_modes(damping, modes).map_err(refused)?;
@@ -130,7 +131,7 @@ fn drawn(
     );
     for (row, mode) in list.iter().enumerate() {
         for column in 0..2 {
-            let panel = phase(query, posture, machine, (row, mode), column);
+            let panel = phase(query, posture, machine, row, mode, column);
             let place = format!(
                 "<svg x=\"{}\" y=\"{}\" width=\"{WIDTH}\" height=\"{HEIGHT}\"",
                 column * WIDTH,
@@ -172,7 +173,8 @@ fn phase(
     query: &PlaceQuery,
     posture: &Posture,
     machine: &VibratingMachine,
-    (index, mode): (usize, &Drawn),
+    index: usize,
+    mode: &Drawn,
     column: usize,
 ) -> String {
     // Both phases are drawn with the same step.

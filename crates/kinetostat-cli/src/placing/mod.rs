@@ -72,14 +72,19 @@ pub(crate) fn run(args: &PlacingArgs, given: &Given) -> Answer<()> {
     }
     let question = question(job, args)?;
     let mut setting = setting(&files, job, &args.program, &WritingFlags::default())?;
-    let model_of_job = (job, named);
-    give_of_model(&mut setting, &files, model_of_job, &args.program)?;
+    give_of_model(&mut setting, &files, job, named, &args.program)?;
     let frames = setting.robot_frames()?;
-    let with = (frames.as_ref(), &mut setting.inputs);
-    let (machine, model) = machine_setup(&files, job, named, &args.program, with)?;
+    let (machine, model) = machine_setup(
+        &files,
+        job,
+        named,
+        &args.program,
+        frames.as_ref(),
+        &mut setting.inputs,
+    )?;
     setting.turned_by(machine.rotary.clone());
     let read = read_program(&setting)?;
-    refuse_unconvertible(&files, (job, &args.program), (&model, &machine))?;
+    refuse_unconvertible(&files, job, &args.program, &model, &machine)?;
     let states_orientation = read.path().moves.iter().any(|m| m.tool_turn.is_some());
     let space = space(job, args, machine.placement, states_orientation)?;
 

@@ -34,17 +34,19 @@ pub(crate) struct Judging<'a> {
 impl<'a> Judging<'a> {
     /// Input of a run whose job requests the analysis.
     pub(crate) fn of_run(
-        with: (&'a MachineSetup, &Model),
+        machine: &'a MachineSetup,
+        model: &Model,
         setting: &'a Setting,
     ) -> Answer<Option<Self>> {
         let asked = setting.chatter.as_ref();
-        let judging = asked.map(|asked| Self::of(with, &DampingArgs::default(), asked));
+        let judging = asked.map(|asked| Self::of(machine, model, &DampingArgs::default(), asked));
         judging.transpose()
     }
 
     /// Options of damping go before the job, and that before the model.
     pub(crate) fn of(
-        (machine, model): (&'a MachineSetup, &Model),
+        machine: &'a MachineSetup,
+        model: &Model,
         options: &DampingArgs,
         setting: &'a ChatterSetting,
     ) -> Answer<Self> {
@@ -155,7 +157,8 @@ pub(crate) fn limits(found: &ProgramChatter, setting: &ChatterSetting) -> Vec<Wa
         all.push(left_out_warning(
             &left_out,
             setting.swinging,
-            (&at, site.site.station.rpm),
+            &at,
+            site.site.station.rpm,
         ));
     }
     all.extend(subject::lost_coupling(found.lost_coupling()));

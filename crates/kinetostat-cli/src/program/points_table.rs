@@ -76,7 +76,9 @@ pub(crate) fn table(
 pub(crate) fn part(
     run_inputs: &RunInputs,
     points: &[PointResult],
-    (listing, parts, begins): (&Listing, usize, bool),
+    listing: &Listing,
+    parts: usize,
+    begins: bool,
     mut put: impl FnMut(&[u8]) -> Answer<()>,
 ) -> Answer<()> {
     let header = header(run_inputs, points, listing);

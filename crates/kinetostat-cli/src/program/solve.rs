@@ -90,7 +90,7 @@ const SMALLEST_MM: f64 = 1e-6;
 
 /// Shares what is asked for in all out among straight pieces, chords of arcs (where there are some) and rounding. Where rounding
 /// takes nearly all of it, a fifth is left for the pieces, and the verdict says what comes of it.
-fn share_out(writing: &mut WriteOptions, (asked_mm, rounding_mm): (f64, f64), path: &ToolPath) {
+fn share_out(writing: &mut WriteOptions, asked_mm: f64, rounding_mm: f64, path: &ToolPath) {
     let chords_mm = smaller(writing.chord_tolerance_mm, 0.4 * asked_mm);
     writing.chord_tolerance_mm = larger(chords_mm, SMALLEST_MM);
     let chords_mm = match kinetostat_machining::feed_arcs(path) {
@@ -152,7 +152,7 @@ pub(crate) fn with_task<R>(
             writing.chord_tolerance_mm = larger(writing.chord_tolerance_mm, in_proportion);
         }
         if let Some(asked_mm) = setting.asked_mm {
-            share_out(&mut writing, (asked_mm, setting.rounding_mm(path)), path);
+            share_out(&mut writing, asked_mm, setting.rounding_mm(path), path);
             run_inputs.asked_mm = Some(asked_mm);
             run_inputs.tolerance_from = format!(
                 "what {} in all leaves beside chords and rounding",
@@ -219,18 +219,21 @@ pub(crate) fn turn(machine: &MachineSetup, setting: &Setting) -> Answer<Option<F
 /// Solves the machine, with the model that it is made from, along the program.
 pub(crate) fn solve(
     aim: Aim,
-    (machine, model): (&MachineSetup, &Model),
+    machine: &MachineSetup,
+    model: &Model,
     setting: &Setting,
     threads: Option<usize>,
 ) -> Answer<Run> {
-    turned(aim, (machine, model), (setting, None), threads)
+    turned(aim, machine, model, setting, None, threads)
 }
 
 /// Solves the machine along the program, with the turn of its tool that was chosen.
 pub(crate) fn turned(
     aim: Aim,
-    (machine, model): (&MachineSetup, &Model),
-    (setting, turn): (&Setting, Option<&FreeTurn>),
+    machine: &MachineSetup,
+    model: &Model,
+    setting: &Setting,
+    turn: Option<&FreeTurn>,
     threads: Option<usize>,
 ) -> Answer<Run> {
     let mut read = read_program(setting)?;
@@ -252,7 +255,7 @@ pub(crate) fn turned(
     let uncertain = setting.uncertain.as_ref();
     let uncertain = uncertain.map(|own| Answer::Ok((own, uncertainty::read(own, model, machine)?)));
     let uncertain = uncertain.transpose()?;
-    let judging = Judging::of_run((machine, model), setting);
+    let judging = Judging::of_run(machine, model, setting);
     let judging = judging.map_err(|failure| setting.within(failure))?;
     let (result, parts, found) =
         with_task(aim, machine, setting, &read, forces.as_ref(), |task| {
@@ -262,7 +265,7 @@ pub(crate) fn turned(
             })?;
             let parts = match (&uncertain, &result) {
                 (Some((_, file)), Ok(run)) => {
-                    uncertainty::parts(file, (task, &run.places), (machine, setting), &progress)?
+                    uncertainty::parts(file, task, &run.places, machine, setting, &progress)?
                 }
                 _ => None,
             };
@@ -275,11 +278,10 @@ pub(crate) fn turned(
             };
             Ok::<_, Failure>((result, parts, found))
         })??;
-    let mut run = result.map_err(|error| failure_of(error, (machine, model), setting, path))?;
+    let mut run = result.map_err(|error| failure_of(error, machine, model, setting, path))?;
     if let Some((own, file)) = &uncertain {
-        let with = (*own, file);
         in_threads(threads, || {
-            put_band(&mut run, (machine, model), with, parts, &progress)
+            put_band(&mut run, machine, model, own, file, parts, &progress)
         })??;
         let shared = file.shared.iter();
         let shared = shared.map(|s| Warning::new(WarningCode::SharedNumber, s.description()));
@@ -327,7 +329,8 @@ pub(crate) fn too_many_blocks(setting: &Setting, most: Option<f64>) -> Option<Wa
 /// Converts an error of a run to a failure, with a possible reason.
 pub(crate) fn failure_of(
     error: RunError,
-    (machine, model): (&MachineSetup, &Model),
+    machine: &MachineSetup,
+    model: &Model,
     setting: &Setting,
     path: &ToolPath,
 ) -> Failure {

@@ -55,8 +55,10 @@ pub(crate) fn read(
 /// The parts of the cutting force at the places, where the file has factors on them.
 pub(crate) fn parts(
     file: &UncertaintyFile,
-    (task, places): (&Task<'_>, &[ProgramPlace]),
-    (machine, setting): (&MachineSetup, &Setting),
+    task: &Task<'_>,
+    places: &[ProgramPlace],
+    machine: &MachineSetup,
+    setting: &Setting,
     watch: &dyn Watch,
 ) -> Answer<Option<CuttingParts>> {
     let mut of_parts = file
@@ -79,7 +81,11 @@ pub(crate) fn parts(
     let acting: Vec<f64> = places.iter().zip(&whole).map(acts).collect();
     let mut parts = CuttingParts::default();
     for (k, part) in parts.iter_mut().enumerate() {
-        let with = |factor: f64| varied(task, places, (machine, setting), (k, factor), name, watch);
+        let with = |factor: f64| {
+            let mut factors = [1.0; CUTTING_PARTS.len()];
+            factors[k] = factor;
+            varied(task, places, machine, setting, factors, name, watch)
+        };
         let (more, less) = (with(1.0 + VARIED)?, with(1.0 - VARIED)?);
         let slopes = more.iter().zip(&less).zip(&acting);
         *part = slopes
@@ -89,17 +95,16 @@ pub(crate) fn parts(
     Ok(Some(parts))
 }
 
-/// The load at the places with one part of the cutting force multiplied by a factor.
+/// The load at the places with the parts of the cutting force multiplied by factors.
 fn varied(
     task: &Task<'_>,
     places: &[ProgramPlace],
-    (machine, setting): (&MachineSetup, &Setting),
-    (part, factor): (usize, f64),
+    machine: &MachineSetup,
+    setting: &Setting,
+    factors: [f64; CUTTING_PARTS.len()],
     name: &str,
     watch: &dyn Watch,
 ) -> Answer<Vec<Wrench>> {
-    let mut factors = [1.0; CUTTING_PARTS.len()];
-    factors[part] = factor;
     let unknown = |why: &str| {
         setting.within(ErrorCode::Value.failure(format!(
             "'{name}' is uncertain, and {why}: make all of the load uncertain (load = \"factor\")"
@@ -167,8 +172,10 @@ fn scale(tool: &mut CuttingTool, [tangential, radial, axial]: [f64; 3]) {
 /// Draws machines and puts the band of the errors into the result of a run.
 pub(crate) fn put_band(
     run: &mut Run,
-    (machine, model): (&MachineSetup, &Model),
-    (uncertainty, file): (&Uncertainty, &UncertaintyFile),
+    machine: &MachineSetup,
+    model: &Model,
+    uncertainty: &Uncertainty,
+    file: &UncertaintyFile,
     parts: Option<CuttingParts>,
     progress: &Progress,
 ) -> Answer<()> {

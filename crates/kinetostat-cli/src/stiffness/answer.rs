@@ -120,15 +120,27 @@ pub(crate) fn with_own_loads(answer: &mut Stiffness, query: &PlaceQuery, posture
     }
 }
 
-pub(crate) fn answer(
-    query: &PlaceQuery,
-    posture: &Posture,
-    (loaded, against_force): (bool, f64),
-    cartesian: &CartesianStiffness,
-    compliance: &CartesianCompliance,
-    directions: &[Direction],
-    limbs: Vec<(&ChainStiffness, LimbStiffness)>,
-) -> Stiffness {
+/// Stiffness of the machine at a posture, with or without the load on the tool.
+pub(crate) struct Tangent<'a> {
+    pub(crate) loaded: bool,
+    /// Smallest stiffness against a force, N/m.
+    pub(crate) against_force: f64,
+    pub(crate) cartesian: &'a CartesianStiffness,
+    pub(crate) compliance: CartesianCompliance,
+    pub(crate) directions: Vec<Direction>,
+    pub(crate) limbs: Vec<(&'a ChainStiffness, LimbStiffness)>,
+}
+
+pub(crate) fn answer(query: &PlaceQuery, posture: &Posture, tangent: Tangent<'_>) -> Stiffness {
+    let Tangent {
+        loaded,
+        against_force,
+        cartesian,
+        compliance,
+        directions,
+        limbs,
+    } = tangent;
+    let directions = directions.as_slice();
     let count = |kind| directions.iter().filter(|d| d.kind == kind).count();
     let free = count(DirectionKind::Free);
     let held = free + count(DirectionKind::Rigid) < 6;

@@ -11,7 +11,7 @@ use kinetostat::Direction;
 
 use crate::files::input_files::InputFiles;
 use crate::place::query::place_query;
-use crate::stiffness::answer::{answer, with_causes, with_own_loads};
+use crate::stiffness::answer::{Tangent, answer, with_causes, with_own_loads};
 use crate::stiffness::arguments::StiffnessArgs;
 use crate::stiffness::text::answer_text;
 use crate::ui::failure::Answer;
@@ -39,29 +39,27 @@ pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
         let limbs = e.limbs.iter().map(|l| &l.stiffness);
         let limbs = limbs.zip(e.limb_stiffnesses(&query.mechanism)).collect();
         let participation = |d: &Direction| e.participation(&query.mechanism, &d.twist);
-        let directions = with_causes(&e.directions, participation);
-        answer(
-            &query,
-            &posture,
-            (true, e.stiffness_against_force()),
-            &e.stiffness,
-            &e.compliance(),
-            &directions,
+        let tangent = Tangent {
+            loaded: true,
+            against_force: e.stiffness_against_force(),
+            cartesian: &e.stiffness,
+            compliance: e.compliance(),
+            directions: with_causes(&e.directions, participation),
             limbs,
-        )
+        };
+        answer(&query, &posture, tangent)
     } else {
         let k = posture.stiffness()?;
         let limbs = k.limbs.iter().zip(k.limb_stiffnesses(&posture)).collect();
-        let directions = with_causes(&k.directions, |d| k.participation(&posture, &d.twist));
-        let mut answer = answer(
-            &query,
-            &posture,
-            (false, k.stiffness_against_force()),
-            &k.cartesian,
-            &k.compliance(),
-            &directions,
+        let tangent = Tangent {
+            loaded: false,
+            against_force: k.stiffness_against_force(),
+            cartesian: &k.cartesian,
+            compliance: k.compliance(),
+            directions: with_causes(&k.directions, |d| k.participation(&posture, &d.twist)),
             limbs,
-        );
+        };
+        let mut answer = answer(&query, &posture, tangent);
         with_own_loads(&mut answer, &query, &posture);
         answer
     };

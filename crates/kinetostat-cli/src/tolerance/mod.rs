@@ -66,7 +66,8 @@ pub(crate) fn run(args: &ToleranceArgs) -> Answer<()> {
     let columns = study.machine.columns();
     let answer = answer_of(
         args,
-        (&study, &drawn),
+        &study,
+        &drawn,
         first,
         in_places(&queries, drawn.results(&columns), columns.len()),
     );
@@ -257,7 +258,8 @@ fn in_places(
 
 fn answer_of(
     args: &ToleranceArgs,
-    (study, drawn): (&Study, &Drawn),
+    study: &Study,
+    drawn: &Drawn,
     query: &PlaceQuery,
     places: Vec<PlaceResults>,
 ) -> ToleranceAnswer {

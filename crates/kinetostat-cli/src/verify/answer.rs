@@ -7,6 +7,7 @@ use kinetostat_machining::{
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::job::setting::Setting;
 use crate::verify::other_language::SPINDLE;
 use crate::verify::other_word::OtherWord;
 use crate::verify::tilted::Tilted;
@@ -57,14 +58,16 @@ pub(crate) struct VerifyAnswer {
 impl VerifyAnswer {
     pub(crate) fn of(
         verified: &Verified,
-        (program, against): (&str, &str),
-        files: Vec<FileRead>,
+        program: &Setting,
+        original: &Setting,
         allowed_mm: f64,
-        (forces_from_cut, other_words): (bool, Vec<OtherWord>),
+        forces_from_cut: bool,
+        other_words: Vec<OtherWord>,
         tilted: Option<Tilted>,
-        flat_original: Option<FlatProgram>,
     ) -> Self {
         let result = &verified.run.result;
+        let mut files = program.program_files.clone();
+        files.extend(result.run_inputs.files.iter().cloned());
         let s = &result.summary;
         let points = &verified.run.points;
         let worst = farthest_off(points).into_iter();
@@ -86,8 +89,8 @@ impl VerifyAnswer {
         Self {
             schema: 1,
             kinetostat_version: env!("CARGO_PKG_VERSION"),
-            program: program.to_owned(),
-            against: against.to_owned(),
+            program: program.program_name.clone(),
+            against: original.program_name.clone(),
             model: result.run_inputs.model.clone(),
             load: result.run_inputs.load.clone(),
             files,
@@ -117,7 +120,7 @@ impl VerifyAnswer {
             features: result.features.clone(),
             worst_points,
             warnings,
-            flat_original,
+            flat_original: original.flat.clone().filter(|_| original.robot.is_none()),
         }
     }
 

@@ -38,7 +38,7 @@ impl Marks<'_> {
                 _ => String::new(),
             };
             let place = [self.before_line(line, is_behind), line];
-            self.add(place, (kind, name), Value::Text(text));
+            self.add(place, kind, name, Value::Text(text));
         }
     }
 }

@@ -38,9 +38,9 @@ pub(crate) fn compared(
                 Kind::Configuration => Vec::new(),
                 // Pieces of a motion pass their ends; the last one ends as the whole.
                 Kind::Zone | Kind::Options => {
-                    elsewhere(kind, (both, &in_force), &aligned.ends, original)
+                    elsewhere(kind, both, &in_force, &aligned.ends, original)
                 }
-                _ => elsewhere(kind, (both, &in_force), cuts, original),
+                _ => elsewhere(kind, both, &in_force, cuts, original),
             };
             match kind {
                 Kind::PathMode | Kind::Radius if at_cuts.is_empty() => named.push((kind, name)),
@@ -99,7 +99,8 @@ impl<'m> InForce<'m> {
 /// Cuts made with another value than in the original; `moves` are those of both programs.
 fn elsewhere(
     kind: Kind,
-    (both, [own, of_original]): (&[Marks<'_>; 2], &[InForce<'_>; 2]),
+    both: &[Marks<'_>; 2],
+    [own, of_original]: &[InForce<'_>; 2],
     moves: &[[usize; 2]],
     original: &Original<'_>,
 ) -> Vec<OtherWord> {
@@ -125,8 +126,8 @@ fn elsewhere(
     }
     let said = runs.into_iter().map(|(lines, values, apart)| {
         let [own, of_original] = values.map(Value::to_string);
-        let follows = (apart.fault, apart.follows.as_str());
-        OtherWord::at_cuts(lines, [&own, &of_original], follows, original.source)
+        let values = [own.as_str(), of_original.as_str()];
+        OtherWord::at_cuts(lines, values, apart.fault, &apart.follows, original.source)
     });
     said.collect()
 }

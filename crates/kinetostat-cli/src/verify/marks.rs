@@ -312,7 +312,8 @@ impl<'a> Marks<'a> {
     pub(crate) fn add(
         &mut self,
         [at, line]: [usize; 2],
-        (kind, name): (Kind, String),
+        kind: Kind,
+        name: String,
         value: Value<'a>,
     ) {
         if IN_FORCE.contains(&kind) {

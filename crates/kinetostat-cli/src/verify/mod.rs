@@ -74,18 +74,25 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         false => [0, 1].map(|_| (job.clone(), args.original.clone())),
     };
     let job = job_of_original;
-    let mut original = asked(&files, job.as_ref(), (&of_original, &flags), model_named)?;
+    let mut original = asked(&files, job.as_ref(), &of_original, &flags, model_named)?;
     refuse_lines_beyond(job.as_ref(), &original)?;
     of_verified.program = Some(args.verified.clone());
     let named = job_of_verified.as_ref();
-    let mut verified = asked(&files, named, (&of_verified, &flags), model_named)?;
+    let mut verified = asked(&files, named, &of_verified, &flags, model_named)?;
     for path in [&original.program_path, &verified.program_path] {
         let why = "each place of it is found on the other program (verify)";
         say_as_a_whole(path, &args.original, &[why]);
     }
     let frames = original.robot_frames()?;
-    let with = (frames.as_ref(), &mut original.inputs);
-    let (machine, model) = machine_setup(&files, job.as_ref(), model_named, &of_original, with)?;
+    let inputs = &mut original.inputs;
+    let (machine, model) = machine_setup(
+        &files,
+        job.as_ref(),
+        model_named,
+        &of_original,
+        frames.as_ref(),
+        inputs,
+    )?;
     original.turned_by(machine.rotary.clone());
     verified.turned_by(machine.rotary.clone());
     let template = match in_two_languages && gcode[0] {
@@ -94,7 +101,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
     };
     if let Some(template) = &template {
         let read = read_program(&original)?;
-        read_as_made(&mut verified, &of_verified, (template, &read))?;
+        read_as_made(&mut verified, &of_verified, template, &read)?;
     }
 
     let inputs = original.inputs.iter().chain(&verified.inputs);
@@ -109,7 +116,8 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         forces_from_cut,
     } = solved(
         &machine,
-        (&original, &verified),
+        &original,
+        &verified,
         template.as_ref(),
         args.original.threads,
     )?;
@@ -121,30 +129,26 @@ pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
         .result
         .warnings
         .extend(run_warnings::of_run(&model, job.as_ref(), &of_original));
-    let mut read = verified.program_files.clone();
-    read.extend(found.run.result.run_inputs.files.iter().cloned());
-    let names = (
-        verified.program_name.as_str(),
-        original.program_name.as_str(),
-    );
     let mut answer = VerifyAnswer::of(
         &found,
-        names,
-        read,
+        &verified,
+        &original,
         allowed_mm,
-        (forces_from_cut, other_words),
+        forces_from_cut,
+        other_words,
         Tilted::of(
             &found.run.points,
-            (corrected, found.matched.turned.as_ref()),
-            (allowed_mm, original.writing.turn_lever_mm),
+            corrected,
+            found.matched.turned.as_ref(),
+            allowed_mm,
+            original.writing.turn_lever_mm,
         ),
-        original.flat.clone().filter(|_| original.robot.is_none()),
     );
     let assessed = answer.as_run(&found);
     answer.assessment = assessed.assessment.clone();
     let controller = model.controller.clone();
     let language = LanguageWord::language(original.targets.language);
-    let paths = claimed.write(args, (&found, &answer), (controller, language))?;
+    let paths = claimed.write(args, &found, &answer, controller, language)?;
     let to_screen = args.json.as_deref() == Some(Path::new("-"));
     let text = text::answer_text(&answer, &assessed);
     let text = format!("{text}{}", outputs::written(&paths));
@@ -181,11 +185,11 @@ fn refuse_what_says_nothing(given: &ProgramArgs) -> Answer<()> {
 fn asked(
     files: &InputFiles,
     job: Option<&JobFile>,
-    (program, writing): (&ProgramArgs, &WritingFlags<'_>),
+    program: &ProgramArgs,
+    writing: &WritingFlags<'_>,
     model_named: Option<&str>,
 ) -> Answer<Setting> {
     let mut setting = setting(files, job, program, writing)?;
-    let model = (job, model_named);
-    give_of_model(&mut setting, files, model, program)?;
+    give_of_model(&mut setting, files, job, model_named, program)?;
     Ok(setting)
 }

@@ -98,13 +98,14 @@ pub(crate) fn template(
 pub(crate) fn read_as_made(
     setting: &mut Setting,
     flags: &ProgramArgs,
-    (template, original): (&Template, &ReadProgram<'_>),
+    template: &Template,
+    original: &ReadProgram<'_>,
 ) -> Answer<()> {
     let correct = setting.correct_converted.directions();
     let Some(source) = setting.robot.as_mut() else {
         return Ok(());
     };
-    let mut of_made = settings_of_made(flags, template, (source.language, up(template)))?;
+    let mut of_made = settings_of_made(flags, template, source.language, up(template))?;
     of_made.corrected = correct;
     if let Some(file) = source.files.first() {
         let stated = Stated::of(original, template);
@@ -119,7 +120,8 @@ pub(crate) fn read_as_made(
 pub(crate) fn words_of_cell(
     machine: &MachineSetup,
     verified: &Setting,
-    (original, own): (&ToolPath, &ReadProgram<'_>),
+    original: &ToolPath,
+    own: &ReadProgram<'_>,
     template: Option<&Template>,
 ) -> Answer<Vec<OtherWord>> {
     let mut found = Vec::new();

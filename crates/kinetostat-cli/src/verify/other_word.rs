@@ -79,7 +79,8 @@ impl OtherWord {
     pub(crate) fn at_cuts(
         [first, last, there]: [usize; 3],
         [own, of_original]: [&str; 2],
-        (fault, follows): (Option<FaultKind>, &str),
+        fault: Option<FaultKind>,
+        follows: &str,
         source: &dyn Fn(usize) -> String,
     ) -> Self {
         let cut = match first == last {
@@ -109,7 +110,7 @@ impl OtherWord {
         let [first, last] = other.lines;
         let lines = [first, last, other.line_of_original];
         let said = [other.of_program.as_str(), &other.of_original];
-        Self::at_cuts(lines, said, (Some(fault), follows), source)
+        Self::at_cuts(lines, said, Some(fault), follows, source)
     }
 
     /// Text about a word in only one of the programs.

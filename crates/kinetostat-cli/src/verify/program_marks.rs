@@ -77,7 +77,7 @@ impl<'r> Marks<'r> {
 
     fn add_motion(&mut self, index: usize, program: &RobotProgram, motion: &'r Motion) {
         let mut add = |kind: Kind, value: Value<'r>| {
-            self.add([index, motion.line], (kind, String::new()), value);
+            self.add([index, motion.line], kind, String::new(), value);
         };
         let runs = match motion.runs {
             Runs::Once => ONCE,
@@ -122,7 +122,7 @@ impl<'r> Marks<'r> {
             };
             let name = statement.mode.unwrap_or_default();
             let place = [statement.motions_before, statement.line];
-            self.add(place, (kind, name), Value::Text(text));
+            self.add(place, kind, name, Value::Text(text));
         }
     }
 }

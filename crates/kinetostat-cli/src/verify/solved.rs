@@ -44,7 +44,8 @@ struct Both<'r> {
 /// The machine along the second program, and what it leaves out and has otherwise.
 pub(crate) fn solved(
     machine: &MachineSetup,
-    (original, verified): (&Setting, &Setting),
+    original: &Setting,
+    verified: &Setting,
     template: Option<&Template>,
     threads: Option<usize>,
 ) -> Answer<Solved> {
@@ -82,7 +83,7 @@ pub(crate) fn solved(
     let mut other_words = both.other_conditions(&mut found, forces.is_some());
     other_words.extend(match both.in_one_form() {
         true => both.marked(&found.matched.cuts, &|word| both.is_stated(word)),
-        false => words_of_cell(machine, verified, (read.path(), &other), template)?,
+        false => words_of_cell(machine, verified, read.path(), &other, template)?,
     });
     let shift_mm = found.run.result.summary.max_position_error_before_mm;
     other_words.extend(ends_in_cut(read.path(), other.path(), shift_mm));

@@ -28,8 +28,10 @@ impl Tilted {
     /// corrected; otherwise an orientation that differs from the original.
     pub(crate) fn of(
         points: &[PointResult],
-        (corrected, turned): (Directions, Option<&Turned>),
-        (allowed_mm, lever_mm): (f64, f64),
+        corrected: Directions,
+        turned: Option<&Turned>,
+        allowed_mm: f64,
+        lever_mm: f64,
     ) -> Option<Self> {
         let allowed_deg = (SLACK * allowed_mm / lever_mm).to_degrees();
         if corrected != Directions::ALL {

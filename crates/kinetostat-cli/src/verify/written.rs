@@ -52,8 +52,10 @@ impl ClaimedFiles {
     pub(crate) fn write(
         mut self,
         args: &VerifyArgs,
-        (found, answer): (&Verified, &VerifyAnswer),
-        (controller, language): (Option<Controller>, Language),
+        found: &Verified,
+        answer: &VerifyAnswer,
+        controller: Option<Controller>,
+        language: Language,
     ) -> Answer<Vec<PathBuf>> {
         let all = &mut self.all;
         if let Some(index) = self.json {

@@ -49,11 +49,7 @@ pub(crate) fn implausible(damping: &Damping) -> Option<Warning> {
 }
 
 /// A mode that is taken as a spring although it counts, somewhere and at a spindle speed, rpm.
-pub(crate) fn left_out_warning(
-    mode: &LeftOut,
-    swinging: Swinging,
-    (at, rpm): (&str, f64),
-) -> Warning {
+pub(crate) fn left_out_warning(mode: &LeftOut, swinging: Swinging, at: &str, rpm: f64) -> Warning {
     let why = match swinging {
         Swinging::UpTo(hz) => format!(
             "modes up to {} Hz were asked for (--modes-up-to-hz, modes_up_to_hz under [chatter]): leave that out",

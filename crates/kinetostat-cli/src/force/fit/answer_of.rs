@@ -37,7 +37,8 @@ struct Fitted {
 pub(super) fn answer_of(
     args: &ForceArgs,
     tool: &CutTool,
-    (path, text): (&Path, &str),
+    path: &Path,
+    text: &str,
 ) -> Answer<FitAnswer> {
     let straight = straight(&tool.tool, &args.cut)?;
     if tool.tool.shape() != Shape::Flat {
@@ -49,7 +50,7 @@ pub(super) fn answer_of(
     }
     let file = path.display().to_string();
     let acts_on = args.fit.acts_on.unwrap_or_default();
-    let fitted = fitted(tool, straight, acts_on, (&file, text))?;
+    let fitted = fitted(tool, straight, acts_on, &file, text)?;
     let name = match &args.material.material {
         Some(name) => name.clone(),
         None => path
@@ -109,7 +110,8 @@ fn fitted(
     tool: &CutTool,
     straight: Straight,
     acts_on: ActsOnWord,
-    (file, text): (&str, &str),
+    file: &str,
+    text: &str,
 ) -> Answer<Fitted> {
     let mirrored = straight.rotation != Rotation::Clockwise;
     let engagement = match mirrored {

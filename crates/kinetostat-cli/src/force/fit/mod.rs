@@ -36,7 +36,7 @@ pub(crate) fn run(files: &InputFiles, args: &ForceArgs, means: &Path) -> Answer<
     let material = target
         .map(|path| claimed.claim_also("material", path))
         .transpose()?;
-    let mut answer = answer_of(args, &tool, (means, &with_decimal_points(&text)))?;
+    let mut answer = answer_of(args, &tool, means, &with_decimal_points(&text))?;
     if let Some(claim) = material {
         let toml = answer.material_toml.as_deref().ok_or_else(|| {
             ErrorCode::Unused.failure(format!(

@@ -39,8 +39,10 @@ pub(super) fn answer_text(a: &FitAnswer, written: Option<&Path>) -> String {
 fn what_was_cut(a: &FitAnswer) -> Vec<(&'static str, String)> {
     let c = &a.cut;
     let cut = cut_text(
-        (c.width_mm, c.depth_mm),
-        (c.part, c.counter_clockwise),
+        c.width_mm,
+        c.depth_mm,
+        c.part,
+        c.counter_clockwise,
         a.tool.diameter_mm,
     );
     let mut list = vec![

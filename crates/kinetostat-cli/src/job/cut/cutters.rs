@@ -41,11 +41,28 @@ impl Cutter {
     }
 }
 
-/// The smallest and the largest of some tools by their diameters; none of none.
-pub(crate) fn extremes(cutters: &[Cutter]) -> Option<(&Tool, &Tool)> {
-    let by_diameter = |a: &&Tool, b: &&Tool| a.diameter_mm().total_cmp(&b.diameter_mm());
-    let edges = || cutters.iter().map(|cutter| &cutter.tool);
-    edges().min_by(by_diameter).zip(edges().max_by(by_diameter))
+/// Smallest and largest of several tools, by their diameters.
+#[derive(Clone, Copy)]
+pub(crate) struct ToolRange<'a> {
+    pub(crate) smallest: &'a Tool,
+    pub(crate) largest: &'a Tool,
+}
+
+impl<'a> ToolRange<'a> {
+    /// Returns `None` without a cutter.
+    pub(crate) fn of(cutters: &'a [Cutter]) -> Option<Self> {
+        let by_diameter = |a: &&Tool, b: &&Tool| a.diameter_mm().total_cmp(&b.diameter_mm());
+        let edges = || cutters.iter().map(|cutter| &cutter.tool);
+        Some(Self {
+            smallest: edges().min_by(by_diameter)?,
+            largest: edges().max_by(by_diameter)?,
+        })
+    }
+
+    /// True if the tools have different diameters.
+    pub(crate) fn is_mixed(self) -> bool {
+        self.smallest.diameter_mm() < self.largest.diameter_mm()
+    }
 }
 
 /// The cutters of a job, by the numbers of the tools: those that it states, and those of its table that the program calls;
@@ -54,7 +71,8 @@ pub(crate) fn cutters(
     files: &InputFiles,
     j: &JobFile,
     flags: &ProgramArgs,
-    (files_read, words): (&mut FilesOfCut, &mut Vec<String>),
+    files_read: &mut FilesOfCut,
+    words: &mut Vec<String>,
 ) -> Answer<Vec<Cutter>> {
     let tools = &j.job.tools;
     let same = |a: usize, b: usize| tools[a].get_ref().number == tools[b].get_ref().number;

@@ -10,7 +10,7 @@ use serde_spanned::Spanned;
 
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::ProgramArgs;
-use crate::job::cut::cutters::{cutters, extremes};
+use crate::job::cut::cutters::{ToolRange, cutters};
 use crate::job::cut::files_of_cut::FilesOfCut;
 use crate::job::cut::material::material;
 use crate::job::cut::refused::refused;
@@ -49,13 +49,13 @@ pub(crate) fn cut_setup(
     let mut read = FilesOfCut::default();
     let of_material = material(files, j, table.get_ref(), &mut read)?;
     let mut words = of_material.words.clone();
-    let cutters = cutters(files, j, flags, (&mut read, &mut words))?;
+    let cutters = cutters(files, j, flags, &mut read, &mut words)?;
     let mut tools = Vec::new();
     for cutter in &cutters {
         let tool = of_material.for_tool(cutter, &mut words);
         tools.push(tool.map_err(|error| refused(j, &table.get_ref().name, &error))?);
     }
-    let Some(extremes) = extremes(&cutters) else {
+    let Some(range) = ToolRange::of(&cutters) else {
         // The fault of the cutter has been reported.
         if j.lacks("cutter") {
             return Ok(None);
@@ -66,7 +66,7 @@ pub(crate) fn cut_setup(
             "write cutter = { shape = \"flat\", diameter_mm = 6, teeth = 2, helix_deg = 30 } under [tool] (or under each of [[tools]]), or [cutters] file = \"tools.toml\"",
         ));
     };
-    let source = where_it_cuts((files, &mut read), j, extremes)?;
+    let source = where_it_cuts(files, &mut read, j, range)?;
     let (source, source_words) = match source {
         Some(source) => source,
         // The fault of the engagement has been reported.
@@ -165,21 +165,22 @@ fn no_material(j: &JobFile) -> Answer<()> {
 
 /// Returns the source of the engagement, and its description; `None` if the job has neither stock nor engagement.
 pub(crate) fn where_it_cuts(
-    (files, read): (&InputFiles, &mut FilesOfCut),
+    files: &InputFiles,
+    read: &mut FilesOfCut,
     j: &JobFile,
-    (smallest, largest): (&Tool, &Tool),
+    tools: ToolRange<'_>,
 ) -> Answer<Option<(EngagementSource, String)>> {
     match (&j.job.stock, &j.job.engagement) {
         (Some(table), None) => {
-            let (stock, words) = stock(files, j, table, (smallest, largest), read)?;
+            let (stock, words) = stock(files, j, table, tools, read)?;
             Ok(Some((EngagementSource::Stock(Box::new(stock)), words)))
         }
-        (None, Some(table)) if smallest.diameter_mm() < largest.diameter_mm() => Err(j.error(
+        (None, Some(table)) if tools.is_mixed() => Err(j.error(
             table,
             "an engagement of some width is another for tools of different diameters",
             "give [stock], from which each tool has its own, or one program for each tool",
         )),
-        (None, Some(table)) => engagement(j, table, smallest).map(Some),
+        (None, Some(table)) => engagement(j, table, tools.smallest).map(Some),
         (Some(stock), Some(_)) => Err(j.error(
             stock,
             "the engagement is given twice: by a stock, and as stated",

@@ -4,6 +4,7 @@ use kinetostat_cutting::{CutError, Stock, StockSettings, Tool};
 use serde_spanned::Spanned;
 
 use crate::files::input_files::InputFiles;
+use crate::job::cut::cutters::ToolRange;
 use crate::job::cut::files_of_cut::FilesOfCut;
 use crate::job::cut::refused::refused;
 use crate::job::cut_tables::StockTable;
@@ -37,8 +38,8 @@ pub(crate) struct Resolution<'a> {
 
 impl Resolution<'_> {
     /// The settings for tools from the smallest to the largest diameter.
-    pub(crate) fn settings(&self, (smallest, largest): (&Tool, &Tool)) -> Answer<StockSettings> {
-        let finest = FINEST * largest.diameter_mm();
+    pub(crate) fn settings(&self, tools: ToolRange<'_>) -> Answer<StockSettings> {
+        let finest = FINEST * tools.largest.diameter_mm();
         let mut settings = match self.cell_mm {
             Some(cell) if cell > 0.0 && cell < finest => {
                 return Err((self.refuse)(
@@ -46,13 +47,13 @@ impl Resolution<'_> {
                     &format!(
                         "cells of {} mm are finer than a thousandth of the tool's diameter of {} mm",
                         given(cell),
-                        short(largest.diameter_mm())
+                        short(tools.largest.diameter_mm())
                     ),
                     &format!("write at least {}", given(finest)),
                 ));
             }
             Some(cell) => StockSettings::with_cell_mm(cell).map_err(|error| self.wrong(&error))?,
-            None => StockSettings::for_tool(smallest).coarser_if_needed(),
+            None => StockSettings::for_tool(tools.smallest).coarser_if_needed(),
         };
         if let Some(mb) = self.memory_mb {
             if !(1.0..=1e5).contains(&mb) {
@@ -102,7 +103,7 @@ pub(crate) fn stock(
     files: &InputFiles,
     job: &JobFile,
     table: &Spanned<StockTable>,
-    tools: (&Tool, &Tool),
+    tools: ToolRange<'_>,
     files_read: &mut FilesOfCut,
 ) -> Answer<(Stock, String)> {
     let wrong = |error: CutError| refused(job, table, &error);
@@ -155,7 +156,7 @@ pub(crate) fn stock(
         ));
     };
     let stock = stock.map_err(wrong)?;
-    let mut words = resolution.of_stock(&stock, tools.0)?;
+    let mut words = resolution.of_stock(&stock, tools.smallest)?;
     if t.stl.is_some() {
         words.push_str(
             "; walls of the mesh stand at points of the grid, up to a cell from where they are",

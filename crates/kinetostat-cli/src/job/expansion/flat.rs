@@ -25,7 +25,8 @@ pub(crate) struct Flattened {
 /// Runs a program once; `name` is that of messages.
 pub(crate) fn flattened(
     bytes: Vec<u8>,
-    (program, name): (&Path, &str),
+    program: &Path,
+    name: &str,
     settings: &ExpandSettings,
 ) -> Answer<Flattened> {
     let folders = Folders::new(program, &settings.folders);

@@ -27,7 +27,8 @@ pub(crate) struct ExpandSettings {
 /// The settings where the program of a run is to be expanded; none where it is not. A program that is converted has a flat one, too.
 pub(crate) fn wanted(
     job: Option<&JobFile>,
-    (flags, is_converted): (&ExpandFlags, bool),
+    flags: &ExpandFlags,
+    is_converted: bool,
     reading: &ReadOptions,
 ) -> Answer<Option<ExpandSettings>> {
     if flags.expand || job.is_some_and(|j| j.job.expand.is_some()) {

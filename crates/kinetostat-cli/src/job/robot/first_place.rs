@@ -42,7 +42,7 @@ pub(crate) fn of_first_place(
         ),
     )];
     if let Some(start) = &made.start_joints_deg {
-        let other = otherwise(arm, start, (&solved, &joints));
+        let other = otherwise(arm, start, &solved, &joints);
         found.extend(other.map(|other| {
             let joints: Vec<String> = joints.iter().map(|joint| format!("{joint:.2}")).collect();
             Warning::at_line(
@@ -71,7 +71,8 @@ struct Otherwise {
 fn otherwise(
     arm: &ArmOfTable,
     start: &[f64],
-    (solved, joints): (&ArmConfiguration, &[f64]),
+    solved: &ArmConfiguration,
+    joints: &[f64],
 ) -> Option<Otherwise> {
     let of_start = arm.configuration_at(start)?;
     if of_start.number != solved.number {

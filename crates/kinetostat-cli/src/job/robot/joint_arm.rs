@@ -93,7 +93,8 @@ impl JointArm for ArmOfTable {
 pub(crate) fn give_arm(
     source: Option<&mut RobotSource>,
     files: &InputFiles,
-    (job, flag_model): (Option<&JobFile>, Option<&str>),
+    job: Option<&JobFile>,
+    flag_model: Option<&str>,
     flags: &ProgramArgs,
 ) -> Answer<()> {
     let Some(source) = source.filter(|source| source.language.is_list()) else {

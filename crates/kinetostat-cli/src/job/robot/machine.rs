@@ -52,7 +52,8 @@ pub(crate) fn tool_of_robot(
     frames: &RobotFrames,
     job: Option<&JobFile>,
     flags: &ProgramArgs,
-    (stated, stated_words): (Pose, String),
+    stated: Pose,
+    stated_words: String,
 ) -> Answer<(Pose, String)> {
     let is_stated = flags.tool_length_mm.is_some()
         || job.is_some_and(|j| j.job.tool.length_mm.is_some() || j.job.tool.pose.is_some());
@@ -101,7 +102,8 @@ pub(crate) fn tools_of_robot(
     frames: &RobotFrames,
     mechanism: &Mechanism,
     load: ProgramLoad,
-    (described, given): (&mut String, &mut Vec<ToolGiven>),
+    described: &mut String,
+    given: &mut Vec<ToolGiven>,
 ) -> Answer<Vec<(u32, Mechanism, ProgramLoad)>> {
     if frames.tools.len() < 2 {
         return Ok(Vec::new());
@@ -130,7 +132,8 @@ pub(crate) fn tools_of_converted(
     frames: &RobotFrames,
     mechanism: &Mechanism,
     load: ProgramLoad,
-    (of_job, given): (&[(u32, Mechanism, ProgramLoad)], &mut Vec<ToolGiven>),
+    of_job: &[(u32, Mechanism, ProgramLoad)],
+    given: &mut Vec<ToolGiven>,
 ) -> Answer<Vec<(u32, Mechanism, ProgramLoad)>> {
     let known = std::mem::take(given);
     let mut tools = Vec::new();

@@ -53,7 +53,8 @@ pub(crate) struct MadeArm {
 pub(crate) fn settings(
     job: Option<&JobFile>,
     flags: &RobotArgs,
-    (language, usual_axis): (Language, Vector3<f64>),
+    language: Language,
+    usual_axis: Vector3<f64>,
 ) -> Answer<RobotSettings> {
     let table = job.and_then(|j| Some((j, j.job.robot.as_ref()?.get_ref())));
     let mut reading = ReadOptions::default();
@@ -62,7 +63,8 @@ pub(crate) fn settings(
     let given = table.and_then(|(_, table)| table.rapid_from_mm_per_s.as_ref());
     making.rapid_from_mm_per_s = chosen(
         job,
-        ("--rapid-from-mm-per-s", flags.rapid_from_mm_per_s),
+        "--rapid-from-mm-per-s",
+        flags.rapid_from_mm_per_s,
         given,
         above_zero,
     )?;

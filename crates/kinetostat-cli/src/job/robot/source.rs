@@ -70,7 +70,9 @@ pub(crate) fn robot_source(
     files: &InputFiles,
     job: Option<&JobFile>,
     program: &ProgramArgs,
-    (path, name, bytes): (&Path, &str, &[u8]),
+    path: &Path,
+    name: &str,
+    bytes: &[u8],
 ) -> Answer<Option<(RobotSource, Vec<kinetostat_machining::FileRead>)>> {
     let flags = &program.robot;
     let table = job.and_then(|j| Some((j, j.job.robot.as_ref()?)));
@@ -113,7 +115,8 @@ pub(crate) fn robot_source(
     let mut settings = settings(
         job,
         flags,
-        (language, Vector3::from(language.usual_tool_axis())),
+        language,
+        Vector3::from(language.usual_tool_axis()),
     )?;
     settings.reading.slash_blocks = slash_blocks(job, &program.reading);
     let text = as_text(name, bytes)?;

@@ -1,6 +1,6 @@
 //! Holds the JSON of every command that the tests run against the schema that `kinetostat schema` prints.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -52,7 +52,7 @@ fn check(command: &str, bytes: &[u8]) {
 
 /// The compiled schema of a command, made once.
 fn validator(command: &str) -> Option<Arc<Validator>> {
-    static MADE: OnceLock<Mutex<HashMap<String, Arc<Validator>>>> = OnceLock::new();
+    static MADE: OnceLock<Mutex<BTreeMap<String, Arc<Validator>>>> = OnceLock::new();
     let made = MADE.get_or_init(Mutex::default);
     let mut made = made.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(found) = made.get(command) {
