@@ -90,8 +90,9 @@ def mirror(
         The program that was measured is the last one written for certain: go on although its
         correction is not seen in the points
     limit : str | float | Sequence[str | float]
-        Move a limit, as in correction_mm=5 (repeat for more; see `kinetostat compensate --help`):
-        correction_mm bounds the correction by measurement, blocks_per_second the program
+        Move a limit, as in correction_mm=5 (repeat for more; `kinetostat compensate --help-all`
+        lists them): correction_mm bounds the correction by measurement, blocks_per_second the
+        program
     units : Literal["mm", "inch"]
         Units of a program that does not say G20 or G21
     arc_tolerance : float

@@ -99,7 +99,7 @@ pub(crate) struct MirrorArgs {
     /// correction is not seen in the points
     #[arg(long, requires = "state")]
     pub(crate) was_run: bool,
-    /// Move a limit, as in correction_mm=5 (repeat for more; see `kinetostat compensate --help-all`): correction_mm bounds the
+    /// Move a limit, as in correction_mm=5 (repeat for more; `kinetostat compensate --help-all` lists them): correction_mm bounds the
     /// correction by measurement, blocks_per_second the program
     #[arg(long = "limit", value_name = "NAME=VALUE", action = ArgAction::Append, allow_hyphen_values = true, help_heading = "Limits")]
     pub(crate) limits: Vec<String>,

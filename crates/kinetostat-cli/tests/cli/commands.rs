@@ -1,6 +1,9 @@
 //! The other commands: they answer, at 80 columns, in the same words everywhere.
 
+use std::sync::Arc;
+
 use crate::common::{contents, run, shell, workplace};
+use kinetostat_machining::Unwatched;
 use kinetostat_model::{PresetKind, preset_names};
 use serde_json::Value;
 
@@ -349,45 +352,39 @@ fn all_commands(command: &clap::Command, path: &[String], found: &mut Vec<Vec<St
     }
 }
 
+/// What a command line prints, without a process of its own.
+fn printed(path: &[String], last: &str) -> String {
+    let words = path.iter().map(String::as_str).chain([last]);
+    let outcome = kinetostat_cli::run_inside(words.map(Into::into), Arc::new(Unwatched));
+    String::from_utf8(outcome.out).expect("text")
+}
+
 #[test]
 fn the_help_of_every_command_fits_on_a_screen_and_names_every_option() {
-    let here = workplace();
     let whole = kinetostat_cli::command();
     let mut commands = Vec::new();
     all_commands(&whole, &[], &mut commands);
     assert!(commands.len() > 30, "{}", commands.len());
     for path in commands {
-        let words: Vec<&str> = path.iter().map(String::as_str).collect();
-        let short = run(here.path(), &[&words[..], &["--help"]].concat())
-            .answered()
-            .out;
-        assert!(
-            short.lines().count() <= 80,
-            "{path:?}: {}",
-            short.lines().count()
-        );
-        narrow(&short);
-        assert_eq!(run(here.path(), &[&words[..], &["-h"]].concat()).out, short);
-        let long = run(here.path(), &[&words[..], &["--help-all"]].concat())
-            .answered()
-            .out;
+        let short = printed(&path, "--help");
+        assert!(short.lines().count() <= 80, "{path:?}: {short}");
+        // The line of usage is not broken.
+        let rest: Vec<&str> = short.lines().filter(|l| !l.starts_with("Usage:")).collect();
+        narrow(&rest.join("\n"));
+        assert_eq!(printed(&path, "-h"), short);
+        let long = printed(&path, "--help-all");
         let command = path.iter().fold(&whole, |command, name| {
             command.find_subcommand(name).expect("a command")
         });
-        for option in command
+        let options = command
             .get_arguments()
-            .filter(|option| !option.is_hide_set())
-        {
-            let Some(name) = option.get_long() else {
-                continue;
-            };
-            let is_named = |text: &str| {
-                text.split_whitespace()
-                    .any(|word| word == format!("--{name}"))
-            };
+            .filter(|option| !option.is_hide_set());
+        for name in options.filter_map(clap::Arg::get_long) {
+            let name = format!("--{name}");
+            let is_named = |text: &str| text.split_whitespace().any(|word| word == name);
             assert!(
                 is_named(&short) && is_named(&long),
-                "{path:?} --{name}: {short}"
+                "{path:?} {name}: {short}"
             );
         }
     }
