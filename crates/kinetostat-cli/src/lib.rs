@@ -148,7 +148,7 @@ pub fn command() -> clap::Command {
 /// The exit code of a command; `begin` is called when its words are understood.
 fn answer(words: impl Iterator<Item = OsString>, begin: impl FnOnce()) -> u8 {
     let words = with_help_words(plain_numbers(words));
-    let asks_for_json = words.iter().any(|word| word == "--json");
+    let asks_for_json = asks_for_json(&words);
     if let Some(what) = no_number(&words) {
         return refused(&ErrorCode::Value.failure(what), asks_for_json);
     }
@@ -176,6 +176,13 @@ fn answer(words: impl Iterator<Item = OsString>, begin: impl FnOnce()) -> u8 {
         Ok(()) => 0,
         Err(failure) => refused(&failure, given.json_on_screen),
     }
+}
+
+/// True if words that are not understood ask for JSON on the screen: `--json` without the name of a file.
+fn asks_for_json(words: &[OsString]) -> bool {
+    let mut after = words.iter().skip_while(|word| *word != "--json");
+    let next = |word: &OsString| word.to_str().is_some_and(|word| word.starts_with('-'));
+    after.next().is_some() && after.next().is_none_or(next)
 }
 
 /// Reports a failure, with `as_json` also as JSON on the standard output, and returns its exit code.
