@@ -32,18 +32,17 @@ const NAMED_FIRST: [&str; 19] = [
     "Load",
 ];
 
-/// Words with the short help for `--help` and `help`, and the long one for `--help-all`; words before a command stay.
+/// Words with the short help for `--help` and `help`, and the long one for `--help-all`. The help of kinetostat itself
+/// is a long one.
 pub(crate) fn with_help_words(mut words: Vec<OsString>) -> Vec<OsString> {
     let is_command = |word: &&OsString| word.to_str().is_some_and(|word| !word.starts_with('-'));
     if words.get(1).is_some_and(|word| word == "help") && words.len() > 2 {
         words.remove(1);
         words.push("-h".into());
     }
-    if words.get(1).filter(is_command).is_none() {
-        return words;
-    }
-    for word in words.iter_mut().skip(2).take_while(|word| **word != "--") {
-        if word == "--help" {
+    let of_a_command = words.get(1).is_some_and(|word| is_command(&word));
+    for word in words.iter_mut().skip(1).take_while(|word| **word != "--") {
+        if word == "--help" && of_a_command {
             *word = "-h".into();
         } else if word == "--help-all" {
             *word = "--help".into();
