@@ -43,10 +43,8 @@ pub struct Location {
 /// ```
 /// use kinetostat_diagnostic::{Diagnostic, ErrorCode, Location};
 ///
-/// let fault = Diagnostic {
-///     location: Location { name: Some("--rpm".into()), ..Location::default() },
-///     ..Diagnostic::new(ErrorCode::Value, "--rpm is -3; a speed above 0 is needed")
-/// };
+/// let mut fault = Diagnostic::new(ErrorCode::Value, "--rpm is -3; a speed above 0 is needed");
+/// fault.location = Location { name: Some("--rpm".into()), ..Location::default() };
 /// assert_eq!(fault.code, ErrorCode::Value);
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
