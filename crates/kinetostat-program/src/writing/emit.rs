@@ -9,7 +9,7 @@ use crate::path::moves::{Change, Knowledge, Move, OffsetChange, Path, PositionOf
 use crate::text::Line;
 use crate::text::program::Program;
 use crate::writing::accounting::Accounting;
-use crate::writing::arc_words::arc_form;
+use crate::writing::blocks::arc_words::arc_form;
 use crate::writing::blocks::block_writer::{BlockWriter, ProgramStyle};
 use crate::writing::blocks::motion_word;
 use crate::writing::blocks::words::UNCHANGED_MM;

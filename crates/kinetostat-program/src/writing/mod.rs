@@ -4,7 +4,6 @@
 //! are fitted to the corrected curves of arcs ([`fitting`]), pieces become blocks ([`emit`], [`blocks`]), and every block is accounted for ([`accounting`]).
 
 pub(crate) mod accounting;
-pub(crate) mod arc_words;
 pub(crate) mod blocks;
 pub(crate) mod corrected_curve;
 pub(crate) mod departure;

@@ -8,7 +8,7 @@ use crate::path::curve::Curve;
 use crate::path::moves::{ExtraAxis, ExtraMode, Motion, Move, Path};
 use crate::text::program::Program;
 use crate::text::{Line, Word};
-use crate::writing::arc_words::arc_words;
+use crate::writing::blocks::arc_words::arc_words;
 use crate::writing::blocks::words::{AxisWords, FeedWords};
 use crate::writing::blocks::{AXES, BlockText, Edits, Place, motion_word, number_span};
 use crate::writing::options::WriteOptions;

@@ -2,8 +2,9 @@
 //!
 //! Knows: the block as it stands ([`BlockText`]), its move and what the controller holds before it. Takes the pieces of the block,
 //! gives their lines ([`block_writer`]): the words that say how to move, where to and how fast ([`words`],
-//! [`crate::writing::arc_words`]), and the shares of other axes.
+//! [`crate::writing::blocks::arc_words`]), and the shares of other axes.
 
+pub(crate) mod arc_words;
 pub(crate) mod block_writer;
 pub(crate) mod words;
 
