@@ -191,7 +191,7 @@ fn refused(failure: &Failure, as_json: bool) -> u8 {
     if as_json {
         json::print_errors(failure);
     }
-    failure.code as u8
+    failure.code() as u8
 }
 
 /// The command of a line, and the options that it gives.

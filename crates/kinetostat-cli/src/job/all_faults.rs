@@ -34,7 +34,7 @@ pub(crate) struct RunQuery<'a> {
 /// The failure of a run, or all faults of its job file if there are more.
 pub(crate) fn with_all_others(files: &InputFiles, query: &RunQuery<'_>, first: Failure) -> Failure {
     match query.job {
-        Some(path) if first.code == Code::WrongInput => {
+        Some(path) if first.code() == Code::WrongInput => {
             all(files, path, query, &first).unwrap_or(first)
         }
         _ => first,
@@ -118,7 +118,7 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
                 is_searched: true,
             };
             let Err(failure) = part(&job) else { break };
-            if failure.code != Code::WrongInput {
+            if failure.code() != Code::WrongInput {
                 break;
             }
             let Some(span) = failure.place.clone() else {

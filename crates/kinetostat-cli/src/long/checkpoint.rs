@@ -202,7 +202,7 @@ impl Checkpoint {
     /// The folder stays where there is anything in it to go on from.
     pub(crate) fn left(self, mut failure: Failure) -> Failure {
         let is_not_kept = failure.plain.starts_with(NOT_KEPT);
-        let stopped = failure.code == Code::Stopped;
+        let stopped = failure.code() == Code::Stopped;
         let has_work = self.has_work();
         let done = match (has_work, is_not_kept, stopped) {
             (true, true, _) => {

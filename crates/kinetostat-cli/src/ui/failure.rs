@@ -57,8 +57,6 @@ impl Failing for ErrorCode {
 /// Report before the program ends.
 #[derive(Clone, Debug)]
 pub(crate) struct Failure {
-    /// Exit code of the process.
-    pub(crate) code: Code,
     /// Plain text, safe for a terminal.
     pub(crate) plain: String,
     /// Report with colours, if there are any.
@@ -78,7 +76,6 @@ pub(crate) type Answer<T> = Result<T, Failure>;
 impl Failure {
     fn new(kind: ErrorCode, message: impl Display) -> Self {
         Self {
-            code: exit_code(kind),
             plain: safe(&shortened(&message.to_string())),
             styled: None,
             place: None,
@@ -96,14 +93,14 @@ impl Failure {
         };
         let styled: Vec<String> = failures.iter().map(styled).collect();
         let plain: Vec<String> = failures.iter().map(|f| f.plain.clone()).collect();
+        // Together they are wrong input, whatever else is among them.
+        let mut kinds = failures.iter().map(|f| f.kind);
+        let kind = kinds.find(|kind| exit_code(*kind) == Code::WrongInput);
         Self {
-            code: Code::WrongInput,
             plain: plain.join("\n\nerror: "),
             styled: Some(styled.join("\n\n")),
-            place: None,
-            is_of_program: false,
-            kind: failures.first().map_or(ErrorCode::Internal, |f| f.kind),
             faults: failures.iter().flat_map(Self::diagnostics).collect(),
+            ..Self::new(kind.unwrap_or(ErrorCode::JobFile), "")
         }
     }
 
@@ -111,14 +108,17 @@ impl Failure {
     pub(crate) fn located(problem: &Problem, place: Range<usize>) -> Self {
         let plain = problem.rendered(TextStyle::Plain);
         Self {
-            code: Code::WrongInput,
             plain: plain.strip_prefix("error: ").unwrap_or(plain).to_owned(),
             styled: Some(problem.rendered(TextStyle::Terminal).to_owned()),
             place: Some(place),
-            is_of_program: false,
-            kind: ErrorCode::JobFile,
             faults: vec![of_problem(ErrorCode::JobFile, problem)],
+            ..Self::new(ErrorCode::JobFile, "")
         }
+    }
+
+    /// Exit code of the process.
+    pub(crate) fn code(&self) -> Code {
+        exit_code(self.kind)
     }
 
     /// The faults for programs.
@@ -137,7 +137,7 @@ impl Failure {
 
     /// Adds a possible reason.
     pub(crate) fn with_reason(mut self, reason: &str) -> Self {
-        if self.code != Code::Stopped {
+        if self.code() != Code::Stopped {
             self.plain = format!("{}. Perhaps the reason: {}", self.plain, safe(reason));
             self.styled = None;
         }
@@ -202,6 +202,7 @@ impl From<RunError> for Failure {
                 Self::new(code_of(cause), error)
             }
             error if error.is_unanswered() => Self::new(ErrorCode::NoAnswer, error),
+            error @ RunError::WeightNotStated { .. } => Self::new(ErrorCode::Missing, error),
             error => Self::new(ErrorCode::ProgramUnsuited, error),
         }
     }

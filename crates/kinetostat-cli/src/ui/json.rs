@@ -67,7 +67,7 @@ pub(crate) fn print_errors(failure: &Failure) {
     let report = ErrorReport {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
-        exit_code: failure.code as u8,
+        exit_code: failure.code() as u8,
         errors: failure.diagnostics(),
     };
     // Nothing can be done if even that cannot be written.

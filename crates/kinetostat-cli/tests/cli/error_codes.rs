@@ -43,6 +43,11 @@ fn every_kind_of_error_has_its_code_and_exit_code() {
         ),
         ("stiffness nothing.toml --at 0 0 0 --json", "model_file", 1),
         ("map orthoglide --json", "missing", 1),
+        (
+            "compensate --model heavy_6r --program part.ngc --force 0 0 -9 --json -",
+            "missing",
+            1,
+        ),
         ("reproduce table_99 --json", "unknown_name", 1),
         ("modes orthoglide --at 0 0 0 --json", "model_unsuited", 1),
         (
