@@ -201,6 +201,12 @@ impl Warning {
         }
     }
 
+    /// A warning of reading or writing a program, with its line.
+    #[must_use]
+    pub fn of_program(code: WarningCode, found: &kinetostat_program::Warning) -> Self {
+        Self::at_line(code, found.line, found.text.clone())
+    }
+
     /// Assigns the warning to another file than the program.
     #[must_use]
     pub fn of_file(mut self, file: impl Into<String>) -> Self {

@@ -6,7 +6,7 @@ use clap::{Arg, ArgAction, Command};
 
 use crate::ui::layout::{self, WIDTH};
 
-/// Most lines of the help of a command.
+/// Largest number of lines of the help of a command.
 const MOST_LINES: usize = 80;
 
 /// Groups of options that are named only where a help is too long, the first ones first. Other groups follow.
@@ -35,12 +35,12 @@ const NAMED_FIRST: [&str; 19] = [
 /// Words with the short help for `--help` and `help`, and the long one for `--help-all`. The help of kinetostat itself
 /// is a long one.
 pub(crate) fn with_help_words(mut words: Vec<OsString>) -> Vec<OsString> {
-    let is_command = |word: &&OsString| word.to_str().is_some_and(|word| !word.starts_with('-'));
     if words.get(1).is_some_and(|word| word == "help") && words.len() > 2 {
         words.remove(1);
         words.push("-h".into());
     }
-    let of_a_command = words.get(1).is_some_and(|word| is_command(&word));
+    let first = words.get(1).and_then(|word| word.to_str());
+    let of_a_command = first.is_some_and(|word| !word.starts_with('-'));
     for word in words.iter_mut().skip(1).take_while(|word| **word != "--") {
         if word == "--help" && of_a_command {
             *word = "-h".into();
@@ -90,30 +90,33 @@ fn examples(command: &Command) -> Option<String> {
 
 /// Options by the order in which they are only named: groups, then single options from the last one on.
 fn in_order(command: &Command) -> Vec<Vec<String>> {
-    let options: Vec<&Arg> = command
-        .get_arguments()
-        .filter(|argument| argument.get_long().is_some() && !argument.is_hide_set())
-        .collect();
     let rank = |heading: &str| {
         let known = NAMED_FIRST.iter().position(|first| *first == heading);
         known.unwrap_or(NAMED_FIRST.len())
     };
-    let mut groups: Vec<(&str, Vec<String>)> = Vec::new();
-    let mut single = Vec::new();
+    let ids = |options: Vec<&Arg>| options.iter().map(|o| o.get_id().to_string()).collect();
+    let options = command.get_arguments();
+    let options = options.filter(|o| o.get_long().is_some() && !o.is_hide_set());
+    let (grouped, single): (Vec<&Arg>, Vec<&Arg>) =
+        options.partition(|option| option.get_help_heading().is_some());
+    let mut groups = by_heading(grouped);
+    groups.sort_by_key(|(heading, _)| rank(heading));
+    let groups = groups.into_iter().map(|(_, options)| ids(options));
+    let single = single.into_iter().rev().map(|option| ids(vec![option]));
+    groups.chain(single).collect()
+}
+
+/// Options by their headings, both in the order in which they are declared.
+fn by_heading<'c>(options: impl IntoIterator<Item = &'c Arg>) -> Vec<(&'c str, Vec<&'c Arg>)> {
+    let mut groups: Vec<(&str, Vec<&Arg>)> = Vec::new();
     for option in options {
-        let id = option.get_id().to_string();
-        let Some(heading) = option.get_help_heading() else {
-            single.push(vec![id]);
-            continue;
-        };
+        let heading = option.get_help_heading().unwrap_or("Others");
         match groups.iter_mut().find(|(known, _)| *known == heading) {
-            Some((_, ids)) => ids.push(id),
-            None => groups.push((heading, vec![id])),
+            Some((_, own)) => own.push(option),
+            None => groups.push((heading, vec![option])),
         }
     }
-    groups.sort_by_key(|(heading, _)| rank(heading));
-    let groups = groups.into_iter().map(|(_, ids)| ids);
-    groups.chain(single.into_iter().rev()).collect()
+    groups
 }
 
 /// The command with these options named below its help.
@@ -121,33 +124,21 @@ fn with_named(command: &Command, named: &[String]) -> Command {
     if named.is_empty() {
         return command.clone();
     }
-    let mut groups: Vec<(String, Vec<String>)> = Vec::new();
-    for option in command.get_arguments() {
-        if !named.iter().any(|id| option.get_id() == id.as_str()) {
-            continue;
-        }
-        let heading = option.get_help_heading().unwrap_or("Others").to_owned();
-        let name = format!("--{}", option.get_long().unwrap_or_default());
-        match groups.iter_mut().find(|(known, _)| *known == heading) {
-            Some((_, names)) => names.push(name),
-            None => groups.push((heading, vec![name])),
-        }
-    }
+    let is_named = |option: &Arg| named.iter().any(|own| option.get_id() == own.as_str());
+    let groups = by_heading(command.get_arguments().filter(|option| is_named(option)));
     let mut text = "Further options, which --help-all explains:\n".to_owned();
     let width = groups.iter().map(|(heading, _)| heading.len()).max();
-    for (heading, names) in &groups {
-        text.push_str(&layout::named(
-            heading,
-            width.unwrap_or(0),
-            &names.join(" "),
-        ));
+    for (heading, options) in &groups {
+        let names = options.iter().filter_map(|option| option.get_long());
+        let names: Vec<String> = names.map(|name| format!("--{name}")).collect();
+        let width = width.unwrap_or(0);
+        text.push_str(&layout::named(heading, width, &names.join(" ")));
     }
     if let Some(after) = command.get_after_help() {
         text.push_str(&format!("\n{after}"));
     }
-    let is_named = |id: &str| named.iter().any(|own| own == id);
     let command = command.clone();
-    let command = command.mut_args(|argument| match is_named(argument.get_id().as_str()) {
+    let command = command.mut_args(|argument| match is_named(&argument) {
         true => argument.hide_short_help(true),
         false => argument,
     });

@@ -287,8 +287,7 @@ fn answer(
         .iter()
         .filter(|warning| !named(warning.line) && warning.topic == WarningTopic::Program);
     for warning in warnings.chain(&setting.expansion_warnings) {
-        let own = Warning::at_line(WarningCode::Program, warning.line, warning.text.clone());
-        found.push(own);
+        found.push(Warning::of_program(WarningCode::Program, warning));
     }
     if !found.is_empty() {
         text.push_str("\nWhat is otherwise, or was taken for granted\n");

@@ -110,8 +110,10 @@ fn answer_of(
     // Corrections do not apply here: every tool has its own cutter.
     let of_program = path.warnings.iter();
     let of_program = of_program.filter(|w| w.topic != WarningTopic::OneTool);
-    warned
-        .extend(of_program.map(|w| Warning::at_line(WarningCode::Program, w.line, w.text.clone())));
+    let of_program = of_program.map(|w| Warning::of_program(WarningCode::Program, w));
+    let mut of_program: Vec<Warning> = of_program.collect();
+    of_program.dedup();
+    warned.extend(of_program);
     EngagementAnswer {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),

@@ -67,7 +67,7 @@ fn codes<C: JsonSchema>() -> Vec<(String, String)> {
     all.into_iter().flatten().filter_map(code).collect()
 }
 
-/// What a code of an error or of a warning means, and what to do
+/// The meaning of a code of an error or a warning, and what to do
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES)]
 pub(crate) struct ExplainArgs {

@@ -1,7 +1,5 @@
 //! The program of a run, read and interpreted.
 
-use std::slice;
-
 use kinetostat::Directions;
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_program::{
@@ -13,7 +11,7 @@ use crate::job::expansion::advice::advice;
 use crate::job::robot::read_program::{RobotRead, read_robot};
 use crate::job::setting::Setting;
 use crate::ui::failure::{Answer, Failing};
-use crate::ui::fault_list::{Fault, fault_list_text};
+use crate::ui::fault_list::{fault_list_text, with_text};
 
 /// A program that was read, with its path.
 pub(crate) enum ReadProgram<'s> {
@@ -163,13 +161,8 @@ pub(crate) fn read_program(setting: &Setting) -> Answer<ReadProgram<'_>> {
             Some(_) => None,
             None => advice(bytes, path, &setting.reading, &all),
         };
-        let failure = ErrorCode::ProgramRefused.failure(first.unwrap_or_default() + &message);
-        let each = if all.is_empty() {
-            slice::from_ref(&error)
-        } else {
-            &all
-        };
-        let failure = failure.with_faults(each.iter().map(Fault::diagnostic));
+        let text = first.unwrap_or_default() + &message;
+        let failure = with_text(ErrorCode::ProgramRefused, text, &error, &all);
         setting.within(failure).of_program()
     })?;
     // A flat program has taken them where it was expanded.

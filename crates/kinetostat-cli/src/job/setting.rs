@@ -162,9 +162,7 @@ impl Setting {
     /// Warnings of the expansion of the program.
     pub(crate) fn of_expansion(&self) -> impl Iterator<Item = kinetostat_machining::Warning> + '_ {
         let found = self.expansion_warnings.iter();
-        found.map(|w| {
-            kinetostat_machining::Warning::at_line(WarningCode::Program, w.line, w.text.clone())
-        })
+        found.map(|w| kinetostat_machining::Warning::of_program(WarningCode::Program, w))
     }
 
     /// The rotary axes of the machine, so that their words are read.

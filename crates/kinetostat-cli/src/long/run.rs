@@ -239,8 +239,7 @@ impl<'a> LongRun<'a> {
         }
         progress.finish();
         let reading = self.survey.warnings.iter();
-        let reading =
-            reading.map(|w| Warning::at_line(WarningCode::Program, w.line, w.text.clone()));
+        let reading = reading.map(|w| Warning::of_program(WarningCode::Program, w));
         let Work {
             state,
             program,

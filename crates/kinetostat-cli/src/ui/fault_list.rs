@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
+use std::slice;
 
 use kinetostat_diagnostic::{Diagnostic, ErrorCode, Location};
 use kinetostat_formats::{MakeError, PathError, ProgramError, ProgramFault};
@@ -124,11 +125,18 @@ impl Fault for MapError {
 
 /// All faults of a file, or the only one, as a failure; `places` is what they are: `lines`.
 pub(crate) fn failure_of<F: Fault>(code: ErrorCode, places: &str, first: &F, all: &[F]) -> Failure {
-    let failure = code.failure(fault_list_text(places, first, all));
-    match all {
-        [] => failure.with_faults([first.diagnostic()]),
-        all => failure.with_faults(all.iter().map(Fault::diagnostic)),
-    }
+    with_text(code, fault_list_text(places, first, all), first, all)
+}
+
+/// All faults of a file, or the only one, as a failure with a text of its own.
+pub(crate) fn with_text<F: Fault>(code: ErrorCode, text: String, first: &F, all: &[F]) -> Failure {
+    let all = if all.is_empty() {
+        slice::from_ref(first)
+    } else {
+        all
+    };
+    let faults = all.iter().map(Fault::diagnostic);
+    code.failure(text).with_faults(faults)
 }
 
 /// Faults of one reason that are listed; further ones are counted.

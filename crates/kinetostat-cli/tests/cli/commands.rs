@@ -352,7 +352,7 @@ fn all_commands(command: &clap::Command, path: &[String], found: &mut Vec<Vec<St
     }
 }
 
-/// What a command line prints, without a process of its own.
+/// Output of a command line, without a process of its own.
 fn printed(path: &[String], last: &str) -> String {
     let words = path.iter().map(String::as_str).chain([last]);
     let outcome = kinetostat_cli::run_inside(words.map(Into::into), Arc::new(Unwatched));

@@ -302,21 +302,16 @@ fn near_singular_warning(near: &NearSingularPlace) -> Warning {
 /// Warnings of reading a program, and of writing another from it: each once.
 #[must_use]
 pub fn of_program(path: &Path, writing: Option<&[kinetostat_program::Warning]>) -> Vec<Warning> {
-    let made = |code: WarningCode| {
-        move |w: &kinetostat_program::Warning| Warning::at_line(code, w.line, w.text.clone())
-    };
-    let mut warnings: Vec<Warning> = path
-        .warnings
-        .iter()
-        .map(made(WarningCode::Program))
-        .collect();
+    let reading = path.warnings.iter();
+    let reading = reading.map(|w| Warning::of_program(WarningCode::Program, w));
+    let mut warnings: Vec<Warning> = reading.collect();
     warnings.extend(
         writing
             .unwrap_or_default()
             .iter()
             // The writer hands on what the reader said.
             .filter(|w| !path.warnings.contains(w))
-            .map(made(WarningCode::Writing)),
+            .map(|w| Warning::of_program(WarningCode::Writing, w)),
     );
     warnings.dedup();
     warnings

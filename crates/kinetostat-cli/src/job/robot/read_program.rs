@@ -19,7 +19,7 @@ use crate::job::robot::settings::RobotSettings;
 use crate::job::robot::source::RobotSource;
 use crate::job::robot::system_frames::taken;
 use crate::ui::failure::{Answer, Failing, Failure};
-use crate::ui::fault_list::{Fault, fault_list_text};
+use crate::ui::fault_list::{Fault, fault_list_text, with_text};
 use crate::ui::numbers::short;
 
 /// A robot's program with its path.
@@ -216,9 +216,7 @@ pub(crate) fn refused<F: Fault>(all: &[F]) -> Failure {
             keys.join("  or  ")
         ));
     }
-    ErrorCode::ProgramRefused
-        .failure(text)
-        .with_faults(all.iter().map(Fault::diagnostic))
+    with_text(ErrorCode::ProgramRefused, text, first, all)
 }
 
 /// Differences below this are those of digits, mm and rad.
