@@ -50,13 +50,13 @@ mod ui;
 mod verify;
 mod vibration;
 
-use kinetostat_diagnostic::ErrorCode;
 use std::ffi::OsString;
 use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::Watch;
 
 use crate::command_line::help::{with_help_words, with_short_help};

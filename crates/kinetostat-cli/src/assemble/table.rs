@@ -1,11 +1,11 @@
 //! All figures of an assembly as a table.
 
 use kinetostat_analysis::assembled::Cases;
+use kinetostat_diagnostic::ErrorCode;
 
 use crate::assemble::answer::Assembly;
 use crate::ui::failure::{Answer, Failing};
 use kinetostat::number::largest_size;
-use kinetostat_diagnostic::ErrorCode;
 
 /// One number in all cases.
 pub(crate) struct Row {

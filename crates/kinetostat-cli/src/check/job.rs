@@ -1,10 +1,10 @@
 //! `kinetostat check job.toml`: what a job requests, and whether it makes sense. The program is read
 //! and its ends are put into the machine; nothing is solved along it and nothing is written.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat::Mechanism;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::number::counted;
 use kinetostat_machining::{
     FlatProgram, LoadAlongPath, Placement, Task, Unwatched, Warning, WarningCode, load_description,

@@ -7,10 +7,10 @@ mod job;
 mod model;
 mod poses;
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use kinetostat_diagnostic::ErrorCode;
 
 use crate::check::model::findings::{Findings, findings};
 use crate::check::model::text::answer_text;

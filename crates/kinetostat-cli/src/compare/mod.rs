@@ -6,11 +6,11 @@ mod answer;
 pub(crate) mod arguments;
 mod grid;
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use kinetostat::{Mechanism, Pose, Posture, PostureRequest, Wrench};
 use kinetostat_analysis::shares::Shares;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{Warning, straight_tool};
 use kinetostat_model::Model;
 use nalgebra::Vector3;

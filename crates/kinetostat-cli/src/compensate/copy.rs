@@ -1,8 +1,8 @@
 //! `compensate --no-compensation`: a program of a machine as it was read, or its flat form.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::sync::Arc;
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::number::counted;
 use kinetostat_program::{Program, RotaryAxes, interpret};
 

@@ -1,9 +1,9 @@
 //! `kinetostat compensate --map`: a program corrected from a table.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::number::{
     MISSING, Rounding, fixed, largest, largest_length, significant, with_unit,
 };

@@ -10,9 +10,9 @@ mod copy;
 mod correction_table;
 mod long;
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{RunResult, merged};
 
 use crate::compensate::arguments::CompensateArgs;

@@ -1,9 +1,9 @@
 //! A program as a table of joint values of an arm: `convert --to joints`.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::sync::Arc;
 
 use kinetostat::{Mechanism, Pose, PostureRequest};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{
     BetweenRows, FrameUse, JointStart, Made, Rapids, TableArm, Template, joint_table,
 };

@@ -12,9 +12,9 @@ pub(crate) mod made;
 pub(crate) mod plausible;
 pub(crate) mod targets;
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{BetweenRows, Kept, Made, Template};
 use kinetostat_machining::number::counted;
 use kinetostat_machining::{Warning, WarningCode, merged};

@@ -8,9 +8,9 @@ pub(crate) mod arguments;
 mod place;
 mod text;
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::RunResult;
 use kinetostat_model::Model;
 

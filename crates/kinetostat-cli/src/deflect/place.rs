@@ -1,9 +1,9 @@
 //! The deflection at one place.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat::Wrench;
+use kinetostat_diagnostic::ErrorCode;
 
 use crate::deflect::answer::answer;
 use crate::deflect::arguments::DeflectArgs;

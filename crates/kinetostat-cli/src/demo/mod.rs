@@ -3,10 +3,10 @@
 //! It takes a directory and writes a whole example into it: model, job, program, and what `compensate` makes of
 //! them.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::RunResult;
 use kinetostat_model::preset_text;
 

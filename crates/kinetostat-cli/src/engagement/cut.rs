@@ -1,10 +1,10 @@
 //! Tools, material, stock and spindle of the program: from options, and else from the job file.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::f64::consts::PI;
 
 use kinetostat::Pose;
 use kinetostat_cutting::{CutError, Engagement, Rotation, Side, Stock};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{CutQuestion, EngagementSource, Placement};
 use nalgebra::UnitQuaternion;
 

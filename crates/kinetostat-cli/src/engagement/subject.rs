@@ -1,7 +1,8 @@
 //! Subject of the command: a program, or a job with its program.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
+
+use kinetostat_diagnostic::ErrorCode;
 
 use crate::engagement::arguments::EngagementArgs;
 use crate::ui::failure::{Answer, Failing};

@@ -2,10 +2,10 @@
 //!
 //! It takes a program, folders of subprograms and diameters of tools; it gives plain blocks with the lines that they came from.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::PathBuf;
 
 use clap::Args;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{FileForm, FlatText, Language, SourceFile, language_of, read};
 use kinetostat_machining::number::counted;
 use nalgebra::Vector3;

@@ -1,10 +1,10 @@
 //! Kinds of files that are told apart by what is in them: a job, a model or a program in the place of another is named as such.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::language_of;
 use toml::de::{DeTable, DeValue};
 

@@ -1,12 +1,12 @@
 //! Files that a command reads, with words for everything that can be wrong with them. The demo
 //! reads its own files from memory before they are on disk.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_model::{Model, preset_text, read_model};
 
 use crate::files::file_kind::{FileKind, beginning, refuse_other_kind};

@@ -3,11 +3,11 @@
 //! input never, and no link is followed. What a killed run left there is removed or named (see
 //! `journal`).
 
-use kinetostat_diagnostic::ErrorCode;
 use std::fs;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
+use kinetostat_diagnostic::ErrorCode;
 use tempfile::NamedTempFile;
 
 use crate::files::journal::{self, Contents, Entry, Journal};

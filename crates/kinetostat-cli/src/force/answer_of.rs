@@ -3,6 +3,7 @@
 use kinetostat_cutting::{
     Applied, CutForce, Material, Milling, Peaks, Revolution, Rotation, Shape, Side, Tool, Wall,
 };
+use kinetostat_diagnostic::ErrorCode;
 
 use crate::force::answer::{
     AtAngle, AtHeight, CutAnswer, FactorAnswer, ForceAnswer, HarmonicAnswer, JobLoad,
@@ -12,7 +13,6 @@ use crate::force::cut::{Cut, Part, Way};
 use crate::force::findings::findings;
 use crate::force::tool::CutTool;
 use crate::ui::failure::{Answer, Failing};
-use kinetostat_diagnostic::ErrorCode;
 
 /// Angles per tooth at which the force is computed, at least and at most.
 const ANGLES_PER_TOOTH: (usize, usize) = (12, 360);

@@ -1,10 +1,10 @@
 //! The cut: which part of the tool is in the material, how fast it goes, and what the spindle gives.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::f64::consts::{PI, TAU};
 
 use kinetostat::number::smaller;
 use kinetostat_cutting::{Contact, Engagement, Feed, Rotation, Shape, Side, SpindleCurve, Tool};
+use kinetostat_diagnostic::ErrorCode;
 
 use crate::force::arguments::{CutArgs, PartWord, SpindleArgs};
 use crate::force::refusal::{refused, within};

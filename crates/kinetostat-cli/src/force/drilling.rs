@@ -1,9 +1,9 @@
 //! `kinetostat force --drill`: thrust and torque of a drill.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::f64::consts::PI;
 
 use kinetostat_cutting::{Drill, Material};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::Warning;
 use schemars::JsonSchema;
 use serde::Serialize;

@@ -1,9 +1,9 @@
 //! Material: the library and a file of the user's, and the factors by which the cut differs from the test.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat_cutting::{Applied, Coolant, Correction, CuttingMaterial, Material, Materials};
+use kinetostat_diagnostic::ErrorCode;
 
 use crate::files::input_files::InputFiles;
 use crate::force::arguments::{CoolantWord, EdgeWord, MaterialArgs};

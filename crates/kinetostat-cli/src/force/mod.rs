@@ -18,10 +18,10 @@ pub(crate) mod tool;
 mod trust;
 mod turning;
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::PathBuf;
 
 use kinetostat_cutting::{ForceLaw, Law, Material, Materials};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_report::{Plot, PlotLine};
 
 use crate::files::answer_files::{ClaimedFiles, Shown};

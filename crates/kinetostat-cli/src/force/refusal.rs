@@ -1,9 +1,9 @@
 //! Errors of the library, reported with the option at fault.
 
 use kinetostat_cutting::CutError;
+use kinetostat_diagnostic::ErrorCode;
 
 use crate::ui::failure::{Failing, Failure};
-use kinetostat_diagnostic::ErrorCode;
 
 /// Quantities of the library and the options that give them.
 const OPTIONS: [(&str, &str); 30] = [

@@ -1,9 +1,9 @@
 //! The tool of a cut: by its sizes, or from a table of tools.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::PathBuf;
 
 use kinetostat_cutting::{RunOut, Shape, Tool, ToolTable};
+use kinetostat_diagnostic::ErrorCode;
 
 use crate::files::input_files::InputFiles;
 use crate::force::arguments::{ShapeWord, ToolArgs};

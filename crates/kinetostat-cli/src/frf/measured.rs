@@ -1,11 +1,11 @@
 //! Measured responses, to be drawn beside the model's.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat_chatter::{
     ChatterError, MeasuredResponse, read_columns, read_universal, turning_columns,
 };
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{Warning, WarningCode};
 
 use crate::files::csv_text::with_decimal_points;

@@ -1,11 +1,11 @@
 //! Numbers of the model scaled to measured modes.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat::number::larger;
 use kinetostat_analysis::vibration::{MeasuredModes, VibratingMachine};
 use kinetostat_chatter::{ChatterError, Parameter, Scaled};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_dynamics::{Damping, Held};
 use kinetostat_machining::straight_tool;
 use kinetostat_model::ParametricModel;

@@ -1,8 +1,8 @@
 //! Common part of both imports of links: remarks, the table of the model file, and the answer.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_links::{
     Error, Grade, SYMMETRIC_TO, StiffnessCheck, check_stiffness, in_n_mm, stiffness_table,
 };

@@ -1,10 +1,10 @@
 //! `kinetostat import urdf`: a model from a robot description.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use kinetostat::MotionKind;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_import::{
     Imported, JointStiffness, LoopFile, UrdfOptions, import_urdf, read_section, read_text,
 };

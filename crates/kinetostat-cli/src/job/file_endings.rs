@@ -1,9 +1,9 @@
 //! Endings of written programs: the ending of another language is refused before a run, for a program with it would be read as
 //! that language. An ending that no language is known by is anybody's own.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::FileForm;
 
 use crate::job::output_paths::{COMPENSATED_PROGRAM, FLAT_PROGRAM};

@@ -1,8 +1,8 @@
 //! A job file that has been read, with its text for messages.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{Warning, WarningCode};
 use serde_spanned::Spanned;
 

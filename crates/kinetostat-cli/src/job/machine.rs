@@ -1,10 +1,10 @@
 //! The machine of a run: model, deviations, tool, placement and load, from a job file and options.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use kinetostat::Mechanism;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{
     Bounds, FileRead, Placement, ProgramLoad, RunInputs, ToolGiven, TouchOff, Warning,
     WeightCorrection,

@@ -1,8 +1,8 @@
 //! Output paths of a run, from options and the job file.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{Language, language_of};
 use serde_spanned::Spanned;
 

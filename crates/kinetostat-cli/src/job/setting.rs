@@ -1,11 +1,11 @@
 //! Settings that decide a run, except the machine: options have priority over the job file.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use kinetostat::number::larger;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{FileForm, stays_beside_flat};
 use kinetostat_machining::{Feature, FileRead, FlatProgram, ForceAlongPath, Limits, WarningCode};
 use kinetostat_program::{

@@ -1,9 +1,9 @@
 //! Mass of the tool, which the machine carries beside its own.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::ops::RangeInclusive;
 
 use kinetostat::Pose;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_model::Model;
 use nalgebra::{Matrix3, Vector3};
 use serde_spanned::Spanned;

@@ -1,9 +1,9 @@
 //! Uncertainties of the machine and the load of a run: `[uncertain]`, `--uncertain`.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::PathBuf;
 
 use clap::Args;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_tolerance::MOST_DRAWS;
 
 use crate::files::input_files::InputFiles;

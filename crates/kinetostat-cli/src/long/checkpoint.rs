@@ -4,11 +4,11 @@
 //! before that, and the outputs as far as they are. A state is written beside the old one and renamed; outputs are synced before,
 //! and cut back to its lengths when the run goes on. With the outputs in place the folder goes.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{FeatureResult, MergedRun, OfWhole};
 use kinetostat_program::WriterState;
 use serde::de::DeserializeOwned;

@@ -1,9 +1,10 @@
 //! An output that grows part by part, and is cut back to what is known to be whole.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::fs::{File, OpenOptions};
 use std::io::{BufReader, Read, Seek, SeekFrom, Write};
 use std::path::PathBuf;
+
+use kinetostat_diagnostic::ErrorCode;
 
 use crate::files::journal::Contents;
 use crate::long::checkpoint::not_kept;

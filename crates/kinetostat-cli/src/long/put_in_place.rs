@@ -1,9 +1,9 @@
 //! Outputs of a long run: claimed before it begins, put in place when it is done.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::io::Read;
 use std::path::PathBuf;
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::RunInputs;
 use sha2::{Digest, Sha256};
 

@@ -1,10 +1,10 @@
 //! A program that is run in parts: surveyed, looked at, run, and put in place.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::io::BufReader;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{
     Envelope, FileRead, OfWhole, Run, RunError, Warning, WarningCode, Watch, analyse_part,
     compensate_part, judge_features, look_at_part,

@@ -1,9 +1,9 @@
 //! The file of a long program.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::fs::File;
 use std::io::Read;
 
+use kinetostat_diagnostic::ErrorCode;
 use sha2::{Digest, Sha256};
 
 use crate::files::hash::hex;

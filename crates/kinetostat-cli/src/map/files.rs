@@ -1,12 +1,12 @@
 //! The files of a map: the table, the drawing, and the fields for other programs.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use contour::ContourBuilder;
 use kinetostat::PostureRequest;
 use kinetostat::number::{larger, smaller};
 use kinetostat_analysis::outline::chain_outline;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::fields::Fields;
 use kinetostat_machining::MapTask;
 use kinetostat_report::{Cell, PlotLine, PlotMark};

@@ -14,10 +14,10 @@ mod solve;
 mod store;
 mod text;
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use kinetostat::{Mechanism, MotionKind, Wrench};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_dynamics::check_masses;
 use kinetostat_machining::{MapTask, Variable, Warning, WarningCode, straight_tool, unusual_load};
 use kinetostat_model::Model;

@@ -4,7 +4,6 @@
 //! place in the order of the grid, and behind each block of them a check number. A block that is not whole is solved again with
 //! all that follows it. One run at a time writes there.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufReader, Read, Seek, SeekFrom, Write};
@@ -12,6 +11,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use kinetostat::chain::FoundBy;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{Grid, MapPlace, PlaceState};
 
 use crate::files::hash::{FNV1A, fnv1a};

@@ -1,8 +1,8 @@
 //! Input of a trial: the program, its settings and the state of the trials before.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_mirror::{MeasureSettings, MirrorState, NominalPath, Register, Stations};
 
 use crate::files::hash::{sha256, sha256_of_all};

@@ -1,8 +1,8 @@
 //! Measurement of a trial, compared with the path.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::PathBuf;
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_mirror::{
     MeasureSettings, MeasuredFile, MeasuredPoints, Measurement, NominalPath, Repeatability, measure,
 };

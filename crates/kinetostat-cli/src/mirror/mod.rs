@@ -15,9 +15,9 @@ mod measured;
 mod text;
 mod written;
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{FieldCorrection, RunError, of_accounting};
 use kinetostat_mirror::{
     MeasuredFile, Measurement, MirrorError, MirrorField, MirrorState, NominalPath, Outcome,

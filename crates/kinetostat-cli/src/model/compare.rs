@@ -1,11 +1,11 @@
 //! `kinetostat model compare`: which constant offsets make one model the other.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat::{Mechanism, Pose};
 use kinetostat_analysis::comparison;
 use kinetostat_analysis::comparison::{ActuatorCounts, ComparisonError, Mapping};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_model::Model;
 use schemars::JsonSchema;
 use serde::Serialize;

@@ -1,12 +1,12 @@
 //! `kinetostat model draw`: a drawing of a machine, and of how it moves or bends.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use kinetostat::{
     Direction, DirectionKind, MotionKind, Posture, Twist, chain::Share, spatial::moved,
 };
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_report::{Drawing, Magnified, Moved, Placed, View};
 
 use crate::files::input_files::InputFiles;

@@ -1,10 +1,10 @@
 //! A model, its tool, a place in the workspace and a load: what `deflect --at` and `stiffness` ask.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use kinetostat::machine::LimbPosture;
 use kinetostat::{Mechanism, Pose, Posture, PostureRequest, Wrench};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_dynamics::Damping;
 use kinetostat_machining::number::{apart, mean_length};
 use kinetostat_machining::{

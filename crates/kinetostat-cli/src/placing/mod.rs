@@ -9,9 +9,9 @@ mod part;
 mod picture;
 mod text;
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{Placement, Task, Warning, WarningCode, analyse};
 use kinetostat_placing::{
     Effort, Fixture, Objective, Obstacle, PartBox, Placed, Question, Range, Space, Variable, place,

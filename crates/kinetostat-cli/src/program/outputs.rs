@@ -1,8 +1,8 @@
 //! Outputs of a run along a program: claimed before the work begins, filled after it.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::PathBuf;
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{FileRead, Run};
 use kinetostat_model::Model;
 use kinetostat_report::{Language, Paper, html_of_run_and_turns, turns_svg};

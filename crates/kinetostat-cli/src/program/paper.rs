@@ -1,9 +1,9 @@
 //! The report to be signed: the hashes of what was written, and the document itself.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::borrow::Cow;
 use std::path::Path;
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::FileRead;
 use kinetostat_report::Paper;
 

@@ -1,9 +1,9 @@
 //! Points of a run as a table: one unit in every name, digits that mean something, a status in every
 //! row.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::collections::BTreeSet;
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{PointKind, PointResult, RunInputs, thinned};
 use kinetostat_model::Controller;
 

@@ -1,10 +1,10 @@
 //! The band of a run's errors over machines that are not exactly as drawn.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::sync::Arc;
 
 use kinetostat::Wrench;
 use kinetostat_cutting::{EdgeForce, Scaled};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{
     CutFailure, CuttingLoad, CuttingTool, ForceOrigin, ProgramLoad, ProgramPlace, Run, Task, Tool,
     Watch, WeightCorrection, wrenches_at,

@@ -2,12 +2,12 @@
 //!
 //! It takes the name of a table, an equation or a figure, or none, and gives the printed and the computed figures.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::Args;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::number::{counted, without_zeros};
 use kinetostat_machining::{RunError, Watch};
 use kinetostat_reproduce::{Entry, IDS, Item, ReproduceError, Status, all, html, one};

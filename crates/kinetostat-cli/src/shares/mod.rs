@@ -7,13 +7,13 @@ mod answer;
 pub(crate) mod arguments;
 mod text;
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat::{Posture, Wrench};
 use kinetostat_analysis::sensitivity::{CommandedPlace, SensitivityTask, sensitivities};
 use kinetostat_analysis::shares::stiffening::stiffen;
 use kinetostat_analysis::shares::{Shares, SharesError};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::straight_tool;
 use kinetostat_model::Model;
 use nalgebra::Vector3;

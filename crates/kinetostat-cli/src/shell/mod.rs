@@ -2,10 +2,10 @@
 //!
 //! It takes the command line itself, from above, and gives files made of it.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use kinetostat_diagnostic::ErrorCode;
 
 use crate::files::outputs::{Existing, Outputs, written};
 use crate::ui::failure::{Answer, Failing};

@@ -7,12 +7,12 @@ mod answer;
 pub(crate) mod arguments;
 mod text;
 
-use kinetostat_diagnostic::ErrorCode;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 use kinetostat::number::larger;
 use kinetostat::{Pose, Wrench};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{Warning, WarningCode, straight_tool};
 use kinetostat_model::Model;
 use kinetostat_report::{Plot, PlotLine};

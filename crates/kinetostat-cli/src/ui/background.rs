@@ -1,11 +1,11 @@
 //! Long work of the core that cannot be interrupted from inside: it runs on a thread of its own
 //! while this one looks for Ctrl-C and shows that something happens.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{RunError, Watch};
 
 use crate::ui::failure::{Answer, Failing, Failure};

@@ -1,7 +1,8 @@
 //! Tables for programs: full precision, as CSV.
 
-use crate::ui::failure::{Answer, Failing};
 use kinetostat_diagnostic::ErrorCode;
+
+use crate::ui::failure::{Answer, Failing};
 
 /// A number that reads back to the same bits; empty where there is none.
 pub(crate) fn cell(x: f64) -> String {

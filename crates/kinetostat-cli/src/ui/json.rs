@@ -1,8 +1,8 @@
 //! Results as JSON, and with it on the screen.
 
-use kinetostat_diagnostic::{Diagnostic, ErrorCode};
 use std::io::{self, Write};
 
+use kinetostat_diagnostic::{Diagnostic, ErrorCode};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::ser::{Formatter, PrettyFormatter, Serializer};

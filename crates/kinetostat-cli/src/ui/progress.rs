@@ -1,11 +1,11 @@
 //! Progress of long work on a terminal, and Ctrl-C.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::Watch;
 use kinetostat_program::Monitor;
 

@@ -1,11 +1,11 @@
 //! The only module that prints. Results go to the standard output, everything about them to the
 //! standard error; with `--json` the text for people goes there too.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::error::ErrorKind as ClapKind;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_model::shortened;
 
 use crate::ui::failure::{Answer, Failing, Failure};

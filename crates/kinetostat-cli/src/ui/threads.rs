@@ -1,7 +1,8 @@
 //! Work on a stated number of threads.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::error::Error;
+
+use kinetostat_diagnostic::ErrorCode;
 
 use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::host;

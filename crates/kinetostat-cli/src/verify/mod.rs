@@ -19,8 +19,9 @@ mod text;
 mod tilted;
 mod written;
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
+
+use kinetostat_diagnostic::ErrorCode;
 
 use crate::files::input_files::InputFiles;
 use crate::files::outputs;

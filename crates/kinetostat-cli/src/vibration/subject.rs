@@ -1,11 +1,11 @@
 //! The machine of a question about vibrations.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat::number::larger;
 use kinetostat::{Directions, Mechanism, Posture};
 use kinetostat_analysis::vibration::VibratingMachine;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_dynamics::{Error, Held};
 use kinetostat_machining::{Warning, WarningCode};
 use nalgebra::{Matrix3, Vector3};

@@ -2,6 +2,8 @@
 
 use kinetostat::number::larger;
 use nalgebra::{Complex, DMatrix};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
 use crate::linear::LinearDynamics;
@@ -17,9 +19,7 @@ use crate::modes::{ModeKind, Modes};
 /// assert!(Damping::Ratio(0.03).check().is_ok()); // 3 % in every mode
 /// assert!(Damping::Ratio(3.0).check().is_err(), "per cent are no ratio");
 /// ```
-#[derive(
-    Clone, Debug, Default, PartialEq, serde::Serialize, schemars::JsonSchema, serde::Deserialize,
-)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Damping {
     /// No damping.

@@ -9,6 +9,8 @@
 use kinetostat::spatial::hat;
 use kinetostat::{Chain, Mechanism};
 use nalgebra::{DMatrix, DVector, Vector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
 use crate::linear::LinearDynamics;
@@ -16,7 +18,7 @@ use crate::linear::places::Point;
 use crate::mass::{MassKind, MassPart};
 
 /// The rotor of a drive.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 pub struct Rotor {
     /// Name of the joint: its coordinate, `limb.joint` where there are several limbs.
     pub joint: String,

@@ -3,6 +3,8 @@
 //! `(K - H + lambda C + lambda^2 M) phi = 0`.
 
 use nalgebra::{Complex, DMatrix, DVector};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::error::Result;
 use crate::linear::LinearDynamics;
@@ -54,7 +56,7 @@ impl ComplexMode {
 }
 
 /// Stability of small disturbances.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Verdict {

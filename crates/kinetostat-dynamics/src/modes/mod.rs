@@ -6,6 +6,8 @@ pub(crate) mod pencil;
 pub(crate) mod quadratic;
 
 use nalgebra::{DMatrix, DVector, Matrix6};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
 use crate::linear::LinearDynamics;
@@ -13,17 +15,7 @@ use crate::linear::LinearDynamics;
 pub use mode::{EnergyShare, Mode, ModeKind};
 
 /// Numbers of directions of each kind.
-#[derive(
-    Clone,
-    Copy,
-    Debug,
-    Default,
-    PartialEq,
-    Eq,
-    serde::Serialize,
-    schemars::JsonSchema,
-    serde::Deserialize,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[non_exhaustive]
 pub struct DirectionCounts {
     /// Modes that vibrate.

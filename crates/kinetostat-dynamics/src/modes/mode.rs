@@ -7,9 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::linear::LinearDynamics;
 
 /// Kind of a mode.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, schemars::JsonSchema, serde::Deserialize,
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum ModeKind {

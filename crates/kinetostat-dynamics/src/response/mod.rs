@@ -5,22 +5,14 @@ pub(crate) mod direct;
 pub(crate) mod modal;
 
 use nalgebra::{Complex, Matrix6};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// 6 x 6: motion (m, rad) of one point by force and moment (N, N m) on another, base axes.
 pub type Receptance = Matrix6<Complex<f64>>;
 
 /// Motion that a response describes.
-#[derive(
-    Clone,
-    Copy,
-    Debug,
-    Default,
-    PartialEq,
-    Eq,
-    serde::Serialize,
-    schemars::JsonSchema,
-    serde::Deserialize,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
     /// Displacement: receptance, m/N.

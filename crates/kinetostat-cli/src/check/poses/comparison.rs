@@ -1,6 +1,5 @@
 //! The model compared with measured poses, stable names with units.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat::number::larger;
@@ -9,6 +8,7 @@ use kinetostat_analysis::measured_poses::{
     Axis, ControllerCoordinates, Coupling, Difference, Explained, Explanation, Frame, MeasuredPose,
     Tolerance, difference, explain, remaining_differences,
 };
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_model::Model;
 use nalgebra::UnitQuaternion;
 use schemars::JsonSchema;

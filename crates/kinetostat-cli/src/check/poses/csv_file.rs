@@ -1,10 +1,10 @@
 //! Measured poses as a table (CSV).
 
-use kinetostat_diagnostic::ErrorCode;
 use std::collections::BTreeMap;
 
 use kinetostat::MotionKind;
 use kinetostat_analysis::measured_poses::MeasuredPose;
+use kinetostat_diagnostic::ErrorCode;
 use nalgebra::Vector3;
 
 use crate::check::poses::pose_row::{MOST, PoseRow};

@@ -7,11 +7,11 @@ mod comparison;
 mod csv_file;
 mod pose_row;
 
-use kinetostat_diagnostic::ErrorCode;
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use kinetostat_analysis::measured_poses::{MeasuredPose, Tolerance};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_model::Model;
 use kinetostat_model::schema::Placement;
 use serde::Deserialize;

@@ -1,6 +1,5 @@
 //! Evaluation of the table of mean forces.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -8,6 +7,7 @@ use kinetostat::number::{larger, largest_size};
 use kinetostat_cutting::{
     CoefficientFit, CutError, MeanForce, MeasuredCut, Rotation, Series, Shape, fit_coefficients,
 };
+use kinetostat_diagnostic::ErrorCode;
 
 use crate::force::answer_of::{milling_word, part_word, tool_answer};
 use crate::force::arguments::ForceArgs;

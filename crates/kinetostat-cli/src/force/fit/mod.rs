@@ -9,9 +9,9 @@ pub(crate) mod findings;
 mod material_file;
 mod text;
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_report::{Plot, PlotLine, PlotMark};
 
 use crate::files::answer_files::{ClaimedFiles, Shown};

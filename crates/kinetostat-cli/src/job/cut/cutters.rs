@@ -1,9 +1,9 @@
 //! The cutters of a job: stated in it, or from tables of tools.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
 
 use kinetostat_cutting::{LinuxCncTable, MachineUnit, Tool, ToolEntry, ToolTable, WrittenTool};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_program::Program;
 use serde_spanned::Spanned;
 

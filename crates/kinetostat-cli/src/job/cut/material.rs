@@ -1,9 +1,9 @@
 //! The material of a job.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::sync::Arc;
 
 use kinetostat_cutting::{Correction, CutError, Material, Materials};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::CuttingTool;
 
 use crate::files::input_files::InputFiles;

@@ -1,9 +1,9 @@
 //! Cutting data of a job as one question.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::ops::RangeInclusive;
 
 use kinetostat_cutting::{Engagement, Side, SpindleCurve, Tool};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{CutQuestion, EngagementSource, Placement};
 use nalgebra::Vector3;
 use serde_spanned::Spanned;

@@ -1,8 +1,8 @@
 //! The expansion itself: the flat program, the files that it was made of, and refusals that name file and line.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{FileRead, FlatProgram};
 use kinetostat_program::{Expanded, ProgramError, expand_or_faults};
 

@@ -1,9 +1,9 @@
 //! Settings of an expansion, from options and the table `[expand]` of a job file; options have priority.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_program::{Dialect, ExpandOptions, OriginComments, OtherAxes, ReadOptions};
 
 use crate::job::dialect_word::DialectWord;

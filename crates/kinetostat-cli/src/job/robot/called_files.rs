@@ -1,8 +1,8 @@
 //! Files of the programs that a program calls: in its own folder, and in folders of subprograms.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::{Path, PathBuf};
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{SourceFile, called_files};
 use kinetostat_machining::FileRead;
 

@@ -1,9 +1,9 @@
 //! The arm of a table of joint values: the model says which poses they give.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::sync::Arc;
 
 use kinetostat::{Pose, PostureRequest};
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{JointArm, Motion, RobotProgram, TableArm, Target, read};
 use kinetostat_machining::{ArmConfiguration, ArmJoints};
 use kinetostat_model::{Controller, Model};

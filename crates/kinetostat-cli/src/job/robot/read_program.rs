@@ -1,11 +1,11 @@
 //! A robot's program read, with its path.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use kinetostat::Directions;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{
     Correctable, FlatText, FrameUse, Motion, ProgramFault, RobotPath, RobotProgram, Target, Zone,
     all_faults, expand, path_of, read, spindle_of_blocks,

@@ -1,9 +1,9 @@
 //! Settings for reading and writing a robot's program, from options and the table `[robot]` of a job file.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::collections::{BTreeMap, BTreeSet};
 
 use kinetostat::Directions;
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{
     BetweenRows, CutterCompensation, ExternalAxes, Language, LengthUnit, PathOptions, ReadOptions,
     StatedValue, TurnAboutAxis, UnknownTargets, WriteOptions as TextOptions,

@@ -1,10 +1,10 @@
 //! The files of a robot's program.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::borrow::Cow;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::{FileForm, Language, SlashBlocks, SourceFile, language_of, odd_program};
 use nalgebra::Vector3;
 use serde_spanned::Spanned;

@@ -1,9 +1,9 @@
 //! The file itself, group by group of rows.
 
-use kinetostat_diagnostic::ErrorCode;
 use std::io::{Read, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::fields::{Cell, RowColumn, RowsWriter};
 use kinetostat_machining::{PointResult, RunInputs};
 

@@ -6,8 +6,9 @@
 #[cfg(feature = "parquet")]
 mod file;
 
-use kinetostat_diagnostic::ErrorCode;
 use std::path::Path;
+
+use kinetostat_diagnostic::ErrorCode;
 
 use crate::ui::failure::{Answer, Failing, Failure};
 #[cfg(not(feature = "parquet"))]
