@@ -81,6 +81,10 @@ fn turns(chain: &Chain) -> Vec<f64> {
 /// Share of the largest singular value below which the least one makes an equilibrium degenerate.
 const SINGULAR: f64 = 1e-7;
 
+/// Scaled coordinates of a locked shape are known to this: what closes within 1e-12 leaves the joints of a limb that is
+/// stretched out within the root of that.
+const LOCKED: f64 = 1e-5;
+
 /// Relative difference of energies per relative residual: soft motions amplify it.
 const LEFT_OPEN: f64 = 1e3;
 
@@ -430,7 +434,9 @@ impl Searched for ChainSearch<'_, '_, '_> {
         let degenerate = k.least < SINGULAR
             && d.rows(0, offset).norm() <= 1e-6 * (1.0 + k.z.rows(0, offset).norm());
         let member = alike && (moves || degenerate);
-        d.norm() <= near || member
+        // Held in more directions than it can move in, the chain carries any force along the others: one shape.
+        let locked = k.least < SINGULAR && d.rows(offset, idle.len()).norm() <= LOCKED;
+        d.norm() <= near || member || locked
     }
 
     fn described(&mut self, candidate: Candidate) -> Option<Known> {

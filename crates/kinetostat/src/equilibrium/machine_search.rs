@@ -10,6 +10,7 @@ use crate::continuation::machine::tool_conditions::ToolConditions;
 use crate::continuation::settings::CurveSettings;
 use crate::equilibrium::all_of_chain::SearchSettings;
 use crate::equilibrium::chain_starts::Bounds;
+use crate::equilibrium::found::Equilibria;
 use crate::equilibrium::limb_shapes::{
     are_searched_one_by_one, combinations, is_inside_out, limb_shapes, state_of,
 };
@@ -36,6 +37,10 @@ const FOLLOWED_SIZES: f64 = 2.0;
 
 /// Starts in a row without a new shape after which the search at one place ends, see [`limb_shapes`].
 const SHAPE_STARTS: usize = 100;
+
+/// A limb that so many starts bring to no shape at a place, whichever, does not reach it: most places that a tool with few
+/// freedoms is displaced to are such.
+const PROBES: usize = 20;
 
 /// Combinations of the limbs' shapes that are tried at one place of the tool, those of least energy.
 const COMBINATIONS: usize = 100;
@@ -172,7 +177,13 @@ impl<'p> MachineSearch<'p> {
             return Vec::new();
         }
         let few = SearchSettings::default().with_fruitless(SHAPE_STARTS);
-        let Ok(shapes) = limb_shapes(posture, place, &few) else {
+        let probe = few.with_starts(PROBES).with_most(1);
+        let reached = |limb: &Equilibria| limb.outside > 0 || !limb.found.is_empty();
+        let shapes = match limb_shapes(posture, place, &probe) {
+            Ok(limbs) if limbs.iter().all(reached) => limb_shapes(posture, place, &few),
+            _ => return Vec::new(),
+        };
+        let Ok(shapes) = shapes else {
             return Vec::new();
         };
         let list = combinations(&shapes).into_iter().take(COMBINATIONS);
