@@ -509,7 +509,7 @@ const GOLDEN: [&str; 8] = [
     "kinetostat-import",
     "kinetostat-links",
     "kinetostat-mirror",
-    "kinetostat-placing",
+    "kinetostat-analysis",
 ];
 
 /// Golden and property tests print `figure {json}` for every number that they reached.

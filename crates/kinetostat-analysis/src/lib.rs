@@ -15,6 +15,8 @@
 //! | what do single limbs and actuators do? | [`limb_motions`], [`joint_motion`] |
 //! | a machine of one limb as a chain whose end is held | [`serial_chain::SerialChain`], [`movable`], [`degenerate`] |
 //! | how far has the tool turned along a curve? | [`rotation::ContinuousRotation`] |
+//! | how far do results scatter when a machine is not exactly as drawn? | [`tolerance`] |
+//! | where does a part lie best? | [`placing::place`] |
 //!
 //! It takes mechanisms, postures and equilibria, and gives figures: lengths in m and angles in rad where a name
 //! does not say another unit, directions in axes of the base. It prints nothing.
@@ -29,6 +31,7 @@ pub mod limb_motions;
 pub mod measured_poses;
 pub mod movable;
 pub mod outline;
+pub mod placing;
 pub mod push_stiffness;
 pub mod reach;
 pub mod reference_load;
@@ -36,4 +39,5 @@ pub mod rotation;
 pub mod sensitivity;
 pub mod serial_chain;
 pub mod shares;
+pub mod tolerance;
 pub mod vibration;

@@ -60,6 +60,9 @@ pub struct Diagnostic {
     /// Text or value that was found there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub found: Option<String>,
+    /// Values that are allowed there: a range, or a list of words.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub allowed: Option<String>,
     /// The fault in words, on the whole.
     pub message: String,
     /// Remedy, where it is known apart from the message.
@@ -76,6 +79,7 @@ impl Diagnostic {
             severity: Severity::Error,
             location: Location::default(),
             found: None,
+            allowed: None,
             message: message.into(),
             remedy: None,
         }

@@ -78,5 +78,5 @@ mod _core {
 
     /// Largest share of the draws without an answer of which Sobol indices are still said.
     #[pymodule_export]
-    const MOST_MISSING: f64 = kinetostat_tolerance::MOST_MISSING;
+    const MOST_MISSING: f64 = kinetostat_analysis::tolerance::MOST_MISSING;
 }

@@ -1,12 +1,12 @@
 //! Tolerances: many machines whose numbers scatter, and draws for functions of Python.
 
 use kinetostat::{Pose, Wrench};
-use kinetostat_machining::RunError;
-use kinetostat_tolerance::{
+use kinetostat_analysis::tolerance::{
     Distribution, Draws, Linear, Quantity, Samples, TaskError, Uncertain, UncertainMachine,
     Uncertainties, UncertaintyFile, can_be_kept, design_row, design_rows, linearised, monte_carlo,
     sobol_indices,
 };
+use kinetostat_machining::RunError;
 use numpy::{PyArray2, PyArray3};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

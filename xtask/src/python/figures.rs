@@ -57,10 +57,7 @@ pub fn measured(figures: &mut Vec<Figure>) -> Result<()> {
     script(figures, tools.python(), "maps.py", &[])?;
     script(figures, tools.python(), "interrupted.py", &[])?;
     let machines = ["--example", "machines_per_second", "--", "20000", "100"];
-    tables(
-        figures,
-        &[&["kinetostat-tolerance"][..], &machines].concat(),
-    )
+    tables(figures, &[&["kinetostat-analysis"][..], &machines].concat())
 }
 
 /// A script of `benches/python` that prints figures, and what else it says on stderr.

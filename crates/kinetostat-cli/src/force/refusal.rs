@@ -1,9 +1,10 @@
 //! Errors of the library, reported with the option at fault.
 
-use kinetostat_cutting::CutError;
+use kinetostat_cutting::{CutError, CutErrorKind};
 use kinetostat_diagnostic::ErrorCode;
 
 use crate::ui::failure::{Failing, Failure};
+use crate::ui::fault_list::{Fault, with_text};
 
 /// Quantities of the library and the options that give them.
 const OPTIONS: [(&str, &str); 30] = [
@@ -41,17 +42,21 @@ const OPTIONS: [(&str, &str); 30] = [
 
 /// An error of the library as the command says it: with the option, or with file and line.
 pub(crate) fn refused(error: &CutError) -> Failure {
-    if error.file.is_some() {
-        return ErrorCode::Value.failure(error);
-    }
     let option = OPTIONS.iter().find(|(name, _)| *name == error.quantity);
-    match option {
-        Some((_, option)) => ErrorCode::Value.failure(format!(
-            "{option}: {} of {}; expected {}",
-            error.quantity, error.found, error.expected
-        )),
-        None => ErrorCode::Value.failure(error),
-    }
+    let Some((_, option)) = option.filter(|_| error.file.is_none()) else {
+        return with_text(ErrorCode::Value, error.to_string(), error, &[]);
+    };
+    let CutError {
+        quantity,
+        found,
+        expected,
+        ..
+    } = error;
+    let message = format!("{option}: {quantity} of {found}; expected {expected}");
+    let mut fault = error.diagnostic();
+    fault.location.name = Some((*option).to_owned());
+    fault.message.clone_from(&message);
+    ErrorCode::Value.failure(message).with_faults([fault])
 }
 
 /// A number of an option within bounds that hold for any machine shop.
@@ -64,11 +69,8 @@ pub(crate) fn within(
     if bounds.contains(&value) {
         return Ok(value);
     }
-    let known = OPTIONS.iter().find(|(name, _)| *name == quantity);
-    let option = known.map_or(quantity, |(_, option)| option);
-    Err(ErrorCode::Value.failure(format!(
-        "{option}: {quantity} of {value} {unit}; expected {} to {} {unit}",
-        bounds.start(),
-        bounds.end()
-    )))
+    let found = format!("{value} {unit}");
+    let expected = format!("{} to {} {unit}", bounds.start(), bounds.end());
+    let kind = CutErrorKind::Cut;
+    Err(refused(&CutError::new(kind, quantity, found, expected)))
 }

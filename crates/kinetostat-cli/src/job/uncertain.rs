@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use kinetostat_analysis::tolerance::MOST_DRAWS;
 use kinetostat_diagnostic::ErrorCode;
-use kinetostat_tolerance::MOST_DRAWS;
 
 use crate::files::input_files::InputFiles;
 use crate::files::origin;

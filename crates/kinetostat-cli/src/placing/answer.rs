@@ -1,7 +1,7 @@
 //! Answer of `place`.
 
+use kinetostat_analysis::placing::{Objective, Placed};
 use kinetostat_machining::{FileRead, RunResult, Warning};
-use kinetostat_placing::{Objective, Placed};
 use schemars::JsonSchema;
 use serde::Serialize;
 

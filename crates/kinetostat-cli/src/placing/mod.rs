@@ -11,11 +11,11 @@ mod text;
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_diagnostic::ErrorCode;
-use kinetostat_machining::{Placement, Task, Warning, WarningCode, analyse};
-use kinetostat_placing::{
+use kinetostat_analysis::placing::{
     Effort, Fixture, Objective, Obstacle, PartBox, Placed, Question, Range, Space, Variable, place,
 };
+use kinetostat_diagnostic::ErrorCode;
+use kinetostat_machining::{Placement, Task, Warning, WarningCode, analyse};
 use serde_spanned::Spanned;
 
 use crate::convert::for_run::refuse_unconvertible;

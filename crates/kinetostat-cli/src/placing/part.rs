@@ -1,9 +1,9 @@
 //! Check that the box around the part is that of the part that the program cuts.
 
 use kinetostat::number::larger;
+use kinetostat_analysis::placing::PartBox;
 use kinetostat_machining::number::largest_length;
 use kinetostat_machining::{Warning, WarningCode};
-use kinetostat_placing::PartBox;
 use kinetostat_program::Path;
 use nalgebra::Vector3;
 

@@ -1,6 +1,8 @@
 //! Maps of the figure through the best placement, as a drawing and as a table.
 
-use kinetostat_placing::{Candidate, MapPanel, Place, Placed, Space, Value, Variable, Why};
+use kinetostat_analysis::placing::{
+    Candidate, MapPanel, Place, Placed, Space, Value, Variable, Why,
+};
 use kinetostat_report::{Cell, Plot, PlotLine, PlotMark, Section};
 
 use crate::placing::answer::PlaceAnswer;

@@ -1,7 +1,7 @@
 //! Text output of `place`.
 
+use kinetostat_analysis::placing::{Candidate, Nowhere, Sensitivity, Space, Why};
 use kinetostat_machining::number::{counted, largest};
-use kinetostat_placing::{Candidate, Nowhere, Sensitivity, Space, Why};
 
 use crate::placing::answer::PlaceAnswer;
 use crate::ui::layout::{columns, item, wrapped};

@@ -3,6 +3,9 @@
 use std::sync::Arc;
 
 use kinetostat::Wrench;
+use kinetostat_analysis::tolerance::{
+    CUTTING_PARTS, CuttingParts, Draws, Source, UncertainRun, UncertaintyFile, band,
+};
 use kinetostat_cutting::{EdgeForce, Scaled};
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{
@@ -10,9 +13,6 @@ use kinetostat_machining::{
     Watch, WeightCorrection, wrenches_at,
 };
 use kinetostat_model::Model;
-use kinetostat_tolerance::{
-    CUTTING_PARTS, CuttingParts, Draws, Source, UncertainRun, UncertaintyFile, band,
-};
 
 use crate::job::cut::along::stopped_or_within;
 use crate::job::machine::MachineSetup;

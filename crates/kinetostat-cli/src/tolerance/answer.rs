@@ -1,7 +1,7 @@
 //! The answer of `tolerance`, stable names with units.
 
+use kinetostat_analysis::tolerance::{Failures, OutputAnswer, SobolIndex};
 use kinetostat_machining::{UncertainNumber, Warning};
-use kinetostat_tolerance::{Failures, OutputAnswer, SobolIndex};
 use schemars::JsonSchema;
 use serde::Serialize;
 

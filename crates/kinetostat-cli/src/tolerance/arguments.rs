@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use kinetostat_tolerance::Quantity;
+use kinetostat_analysis::tolerance::Quantity;
 
 use crate::options::{number, whole};
 

@@ -12,15 +12,15 @@ use std::path::{Path, PathBuf};
 
 use kinetostat::number::larger;
 use kinetostat::{Pose, Wrench};
-use kinetostat_diagnostic::ErrorCode;
-use kinetostat_machining::{Warning, WarningCode, straight_tool};
-use kinetostat_model::Model;
-use kinetostat_report::{Plot, PlotLine};
-use kinetostat_tolerance::{
+use kinetostat_analysis::tolerance::{
     CONFIDENCE, DependsOnMachine, Draws, Failures, Linear, MOST_DRAWS, OutputAnswer, Quantity,
     Samples, SobolIndex, Source, TaskError, UncertainMachine, UncertaintyFile, answers,
     can_be_kept, linearised, monte_carlo, sobol as sobol_of,
 };
+use kinetostat_diagnostic::ErrorCode;
+use kinetostat_machining::{Warning, WarningCode, straight_tool};
+use kinetostat_model::Model;
+use kinetostat_report::{Plot, PlotLine};
 
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
+use kinetostat_analysis::tolerance::{MOST_MISSING, NOTHING};
 use kinetostat_machining::number::plus_minus;
-use kinetostat_tolerance::{MOST_MISSING, NOTHING};
 
 use crate::tolerance::answer::{ColumnResult, ToleranceAnswer};
 use crate::ui::layout::{columns, item, wrapped};

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::slice;
 
+use kinetostat_cutting::CutError;
 use kinetostat_diagnostic::{Diagnostic, ErrorCode, Location};
 use kinetostat_formats::{MakeError, PathError, ProgramError, ProgramFault};
 use kinetostat_program::{MapError, ProgramError as GcodeError};
@@ -101,6 +102,28 @@ impl Fault for ProgramFault {
             Self::Path(fault) => fault.diagnostic(),
             other => Diagnostic::new(ErrorCode::ProgramRefused, other.to_string()),
         }
+    }
+}
+
+impl Fault for CutError {
+    fn reason(&self) -> &str {
+        &self.found
+    }
+
+    fn diagnostic(&self) -> Diagnostic {
+        let mut diagnostic = Diagnostic::new(ErrorCode::Value, self.to_string());
+        diagnostic.location = Location {
+            file: self.file.clone(),
+            line: self.line,
+            name: Some(self.quantity.clone()),
+            ..Location::default()
+        };
+        diagnostic.found = Some(self.found.clone());
+        match self.is_suggestion {
+            true => diagnostic.remedy = Some(self.expected.clone()),
+            false => diagnostic.allowed = Some(self.expected.clone()),
+        }
+        diagnostic
     }
 }
 

@@ -113,6 +113,14 @@ fn faults_of_files_have_their_place_and_their_remedy() {
     );
     assert!(errors[0]["line"].is_u64() && errors[0]["column"].is_u64());
 
+    let (errors, _) = faults(
+        here.path(),
+        "force --material C45 --tool flat --diameter-mm 10 --teeth 2 --width-mm 2 --depth-mm 4 --part left --feed-per-tooth-mm 0.1 --rpm 0 --json",
+    );
+    assert_eq!(errors[0]["name"], "--rpm", "{errors:#?}");
+    assert_eq!(errors[0]["found"], "0 turns per minute");
+    assert_eq!(errors[0]["allowed"], "0.001 to 1000000 turns per minute");
+
     put("two.ngc", "G21 G90\nG1 X1 F100\nG77 X2\nG1 X\nM2\n");
     let (errors, _) = faults(
         here.path(),
