@@ -1,5 +1,6 @@
 //! The text of a file that is read, errors with the line of what they are about, and names that people spell in many ways.
 
+use kinetostat_diagnostic::{TomlFault, TomlFaultKind};
 use serde_spanned::Spanned;
 
 use crate::error::{CutError, CutErrorKind};
@@ -34,53 +35,58 @@ impl Source<'_> {
     }
 }
 
-/// Position of a TOML error, and its message in one line, without names of Rust types.
-pub(crate) fn described(error: &toml::de::Error) -> (usize, String) {
-    let byte = error.span().map_or(0, |span| span.start);
-    let message = error.message().lines().collect::<Vec<_>>().join(", ");
-    (byte, in_words(&message))
+/// What a text in TOML is about, for faults of the reader.
+pub(crate) struct Subject {
+    /// One entry of it.
+    pub(crate) entry: &'static str,
+    /// The whole of it.
+    pub(crate) whole: &'static str,
+    /// How it is written.
+    pub(crate) form: &'static str,
 }
 
-/// Found and expected value in a message of [`described`]; `None` if it names neither.
-pub(crate) fn found_and_expected(message: &str) -> Option<(String, String)> {
-    let (found, expected) = message.split_once(", expected ")?;
-    Some((found.to_owned(), expected.to_owned()))
-}
-
-/// Whole numbers and others, as the reader calls them.
-const WHOLE: [&str; 10] = [
-    "usize", "u128", "u64", "u32", "u16", "u8", "i64", "i32", "i16", "i8",
-];
-const REAL: [&str; 4] = ["finite f32", "finite f64", "f32", "f64"];
-
-fn in_words(message: &str) -> String {
-    let mut words = message
-        .replace("invalid type: ", "")
-        .replace("invalid value: ", "")
-        .replace("floating point `", "the number `")
-        .replace("integer `", "the number `")
-        .replace("boolean `", "the word `")
-        .replace("string \"", "the text \"")
-        .replace("sequence, expected", "a list, expected")
-        .replace("map, expected", "a table, expected")
-        .replace("expected a sequence", "expected a list")
-        .replace("expected a map", "expected a table")
-        .replace("expected a string", "expected a text in quotes")
-        .replace("expected a boolean", "expected true or false")
-        .replace("expected an array of length ", "expected a list of ")
-        .replace("wanted string or table", "expected a table");
-    if let Some(rest) = words.strip_prefix("invalid length ") {
-        words = format!("a list of {rest}");
-    }
-    if let Some((before, _)) = words.split_once("expected struct ") {
-        words = format!("{before}expected a table");
-    }
-    for (names, word) in [(&WHOLE[..], "a whole number"), (&REAL[..], "a number")] {
-        for name in names {
-            words = words.replace(&format!("expected {name}"), &format!("expected {word}"));
+impl Source<'_> {
+    /// A fault that the reader of TOML found; for a name that is not known, with the nearest one.
+    pub(crate) fn toml_fault(&self, error: &toml::de::Error, subject: &Subject) -> CutError {
+        let fault = TomlFault::of(error);
+        let said = |quantity: &str, found: String, expected: String| {
+            self.error(fault.span.start, quantity, found, expected)
+        };
+        match fault.kind {
+            TomlFaultKind::UnknownKey { given, known }
+            | TomlFaultKind::UnknownWord { given, known } => {
+                let near = nearest_key(&given, &known);
+                let expected = match near {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("one of {}", known.join(", ")),
+                };
+                let key = format!("key of a {}", subject.entry);
+                CutError {
+                    is_suggestion: near.is_some(),
+                    ..said(&key, format!("`{given}` is not known here"), expected)
+                }
+            }
+            TomlFaultKind::MissingKey(key) => {
+                let expected = format!("a line `{key} = ...` in this table");
+                said(subject.entry, format!("no `{key}`"), expected)
+            }
+            TomlFaultKind::Length { needed, given } => {
+                let [found, expected] = [given, needed].map(|count| format!("a list of {count}"));
+                said(subject.whole, found, expected)
+            }
+            TomlFaultKind::Mismatch { found, expected } => said(subject.whole, found, expected),
+            _ => said(subject.whole, fault.message, subject.form.to_owned()),
         }
     }
-    words
+}
+
+/// The nearest of some keys, if it is close enough to be a typing mistake; a key without its unit is meant to be the one
+/// with it.
+fn nearest_key<'k>(given: &str, known: &'k [String]) -> Option<&'k str> {
+    let stem = format!("{given}_");
+    let mut keys = known.iter().map(String::as_str);
+    let with_unit = keys.clone().find(|key| key.starts_with(&stem));
+    with_unit.or_else(|| nearest(given, keys.by_ref(), 1).pop())
 }
 
 /// A name without what does not matter: case, spaces, hyphens, dots and other signs.

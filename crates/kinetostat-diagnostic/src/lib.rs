@@ -4,11 +4,13 @@
 //! at any time.
 
 mod code;
+mod toml_fault;
 
 use schemars::JsonSchema;
 use serde::Serialize;
 
 pub use code::ErrorCode;
+pub use toml_fault::{TomlFault, TomlFaultKind, wrong_length};
 
 /// Severity of a [`Diagnostic`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]

@@ -6,6 +6,7 @@
 
 use std::fmt;
 
+use kinetostat_diagnostic::wrong_length;
 use serde::Deserialize;
 use serde::de::{
     DeserializeSeed, Deserializer, EnumAccess, Error, IgnoredAny, MapAccess, SeqAccess,
@@ -26,11 +27,6 @@ pub fn exact<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<
 /// As for [`exact`], with the place in the text.
 pub fn exact_toml<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, toml::de::Error> {
     exact(toml::de::Deserializer::parse(text)?)
-}
-
-/// Message for a list of the wrong length.
-pub fn wrong_length(needed: usize, given: usize) -> String {
-    format!("{needed} values are needed, {given} are given")
 }
 
 /// A reader, a visitor, a seed or an access whose lists are counted.
@@ -111,21 +107,38 @@ impl<'de, D: Deserializer<'de>> Deserializer<'de> for Exact<D> {
         variants: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, D::Error> {
-        let read = self.0.deserialize_enum(name, variants, Exact(visitor));
-        read.map_err(|error| {
-            // The reader of TOML says these of a number or a table where a word is needed.
-            let text = error.to_string();
-            match ["wanted string or table", "wanted exactly 1 element"]
-                .iter()
-                .any(|said| text.contains(said))
-            {
-                true => D::Error::custom(format!(
-                    "a word in quotes is needed, one of: {}",
-                    variants.join(", ")
-                )),
-                false => error,
-            }
+        let mut is_word = false;
+        let visitor = OfWord {
+            visitor,
+            is_word: &mut is_word,
+        };
+        let read = self.0.deserialize_enum(name, variants, visitor);
+        read.map_err(|error| match is_word {
+            true => error,
+            false => D::Error::custom(format!(
+                "a word in quotes is needed, one of: {}",
+                variants.join(", ")
+            )),
         })
+    }
+}
+
+/// The visitor of a word; it notes that a word is there, or a table of one key, which may stand for one.
+struct OfWord<'a, V> {
+    visitor: V,
+    is_word: &'a mut bool,
+}
+
+impl<'de, V: Visitor<'de>> Visitor<'de> for OfWord<'_, V> {
+    type Value = V::Value;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.visitor.expecting(f)
+    }
+
+    fn visit_enum<A: EnumAccess<'de>>(self, access: A) -> Result<V::Value, A::Error> {
+        *self.is_word = true;
+        self.visitor.visit_enum(Exact(access))
     }
 }
 

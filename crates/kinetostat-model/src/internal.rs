@@ -8,8 +8,6 @@ use crate::elements::placement;
 use crate::problem::KeyPath;
 use crate::schema::{Axis, Placement};
 
-pub use crate::exact::wrong_length;
-
 /// Error of a table, worded as in the messages for model files.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault(pub String);

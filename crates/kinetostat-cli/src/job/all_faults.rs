@@ -4,6 +4,7 @@
 use std::ops::Range;
 use std::path::Path;
 
+use kinetostat_diagnostic::{TomlFault, TomlFaultKind};
 use kinetostat_model::exact;
 use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -178,7 +179,8 @@ fn put_right(
     taken: &mut Places,
     put: &mut Places,
 ) -> bool {
-    let span = error.span().unwrap_or(0..0);
+    let fault = TomlFault::of(error);
+    let span = fault.span.clone();
     // A placeholder that was not accepted is no number: its whole table is removed.
     let behind_the_text = source.text.len() + 1;
     if let Some(own) = span.start.checked_sub(behind_the_text) {
@@ -187,7 +189,10 @@ fn put_right(
             _ => false,
         };
     }
-    let missing = Source::missing(error);
+    let missing = match &fault.kind {
+        TomlFaultKind::MissingKey(key) => Some(key.clone()),
+        _ => None,
+    };
     // A key that was removed with a message of its own is not missing; under a header it lies beside the table's place.
     let was_there = match &missing {
         Some(missing) => taken.iter().any(|(key, place)| {
@@ -202,13 +207,13 @@ fn put_right(
     };
     if !was_there {
         let before = found.len();
-        add(found, source.content(error));
+        add(found, source.content(fault));
         if found.len() == before || before >= MOST {
             return false;
         }
     }
     if let Some(key) = missing {
-        let own = (key.to_owned(), span.clone());
+        let own = (key.clone(), span.clone());
         if put.contains(&own) {
             return take(tree.get_mut(), span, taken);
         }

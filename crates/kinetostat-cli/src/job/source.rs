@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use kinetostat_diagnostic::{TomlFault, TomlFaultKind, wrong_length};
 use kinetostat_model::{Problem, Severity, exact_toml};
 use serde::de::DeserializeOwned;
 use serde_spanned::Spanned;
@@ -59,7 +60,7 @@ impl Source<'_> {
         if let Some(span) = self.not_finite(&tree).into_iter().next() {
             return Err(self.not_finite_number(span));
         }
-        exact_toml(self.text).map_err(|error| self.wrong(&error, help))
+        exact_toml(self.text).map_err(|error| self.wrong(TomlFault::of(&error), help))
     }
 
     /// Places of all numbers that are nan or infinite.
@@ -80,97 +81,60 @@ impl Source<'_> {
         )
     }
 
-    /// The key that the reader misses, if that is its complaint.
-    pub(crate) fn missing(error: &toml::de::Error) -> Option<String> {
-        quoted(error.message(), "missing field ")
-    }
-
     pub(crate) fn syntax(&self, error: &toml::de::Error) -> Failure {
-        let reason = error.message().lines().collect::<Vec<_>>().join(", ");
+        let fault = TomlFault::of(error);
         self.error(
-            error.span().unwrap_or(0..0),
-            &format!("this is not TOML: {reason}"),
+            fault.span,
+            &format!("this is not TOML: {}", fault.message),
             "a value is written as  key = 1.5,  key = \"text\",  key = [1, 2, 3];  a table begins with [name]",
         )
     }
 
-    pub(crate) fn content(&self, error: &toml::de::Error) -> Failure {
-        self.wrong(error, HELP)
+    /// A mistake in what a job file says, shown with its line.
+    pub(crate) fn content(&self, fault: TomlFault) -> Failure {
+        self.wrong(fault, HELP)
     }
 
-    pub(crate) fn wrong(&self, error: &toml::de::Error, help: &str) -> Failure {
-        let message = error.message();
-        let span = error.span().unwrap_or(0..0);
-        if let Some(found) = quoted(message, "unknown field ") {
-            let known = expected(message);
-            let known: Vec<&str> = known.iter().map(String::as_str).collect();
-            return self.error(
-                span,
-                &format!("unknown key '{found}'"),
-                &advice(&found, &known),
-            );
-        }
-        if let Some(found) = quoted(message, "unknown variant ") {
-            let known = expected(message);
-            return self.error(
-                span,
-                &format!("'{found}' is not known here"),
-                &words_known(&found, &known),
-            );
-        }
-        if let Some(missing) = quoted(message, "missing field ") {
-            let example = match missing.as_str() {
-                "schema" => "1",
-                _ => "...",
-            };
-            return self.error(
-                span,
-                &format!("the key '{missing}' is missing"),
-                &format!("add  {missing} = {example}"),
-            );
-        }
-        if let Some(help) = help_on_length(message) {
-            return self.error(span, message, &help);
-        }
-        let words = message
-            .replace("invalid type: ", "found ")
-            .replace("invalid value: ", "found ")
-            .replace("found string ", "found the text ")
-            .replace("found integer ", "found the number ")
-            .replace("found floating point ", "found the number ")
-            .replace("expected f64", "a number is needed")
-            .replace("expected finite f32", "a number is needed")
-            .replace("expected f32", "a number is needed")
-            .replace("expected usize", "a whole number is needed")
-            .replace("expected u64", "a whole number is needed")
-            .replace("expected u32", "a whole number is needed")
-            .replace("expected u16", "a whole number is needed")
-            .replace("expected u8", "a small whole number is needed")
-            .replace("expected an array", "a list is needed")
-            .replace("expected a string", "text in quotes is needed")
-            .replace("expected a boolean", "true or false is needed");
-        let words = match words.split_once("expected struct ") {
-            Some((before, _)) => format!("{before}a table {{ key = value, ... }} is needed"),
-            None => words,
+    fn wrong(&self, fault: TomlFault, help: &str) -> Failure {
+        let (message, help) = match fault.kind {
+            TomlFaultKind::UnknownKey { given, known } => {
+                (format!("unknown key '{given}'"), advice(&given, &known))
+            }
+            TomlFaultKind::UnknownWord { given, known } => (
+                format!("'{given}' is not known here"),
+                words_known(&given, &known),
+            ),
+            TomlFaultKind::MissingKey(key) => {
+                let example = match key.as_str() {
+                    "schema" => "1",
+                    _ => "...",
+                };
+                let help = format!("add  {key} = {example}");
+                (format!("the key '{key}' is missing"), help)
+            }
+            TomlFaultKind::Length { needed, given } => {
+                (wrong_length(needed, given), help_on_length(needed, given))
+            }
+            TomlFaultKind::Mismatch { found, expected } => {
+                let message = format!("found {found}, {expected} is needed");
+                (message, help.to_owned())
+            }
+            _ => (fault.message, help.to_owned()),
         };
-        self.error(span, &words, help)
+        self.error(fault.span, &message, &help)
     }
 }
 
-/// Remedy for a list of the wrong length, if the message reports one.
-fn help_on_length(message: &str) -> Option<String> {
-    let (needed, rest) = message.split_once(" values are needed, ")?;
-    let given = rest.strip_suffix(" are given")?;
-    let [needed, given] = [needed, given].map(|n| n.parse::<usize>().ok());
-    let needed = needed?;
+/// Remedy for a list of the wrong length.
+fn help_on_length(needed: usize, given: usize) -> String {
     let form = match needed {
         3 => "write them as [x, y, z]".to_owned(),
         _ => format!("write {needed} values in the brackets"),
     };
-    Some(match given? > needed {
+    match given > needed {
         true => format!("{form}; numbers take a decimal point, not a comma: 1.5, not 1,5"),
         false => form,
-    })
+    }
 }
 
 /// Lists the known words in place of an unknown one; orientations have keys of their own.
@@ -184,25 +148,8 @@ fn words_known(found: &str, known: &[String]) -> String {
     }
 }
 
-/// The word in backticks after `prefix`.
-fn quoted(message: &str, prefix: &str) -> Option<String> {
-    let rest = message.strip_prefix(prefix)?.strip_prefix('`')?;
-    Some(rest.split('`').next()?.to_owned())
-}
-
-/// All words in backticks after `expected`.
-fn expected(message: &str) -> Vec<String> {
-    message
-        .split_once("expected")
-        .map_or("", |(_, rest)| rest)
-        .split('`')
-        .skip(1)
-        .step_by(2)
-        .map(str::to_owned)
-        .collect()
-}
-
-fn advice(found: &str, known: &[&str]) -> String {
+fn advice(found: &str, known: &[String]) -> String {
+    let known: Vec<&str> = known.iter().map(String::as_str).collect();
     let with_unit: Vec<&str> = known
         .iter()
         .copied()
@@ -214,7 +161,7 @@ fn advice(found: &str, known: &[&str]) -> String {
     if !with_unit.is_empty() {
         return format!("write the unit in the key: {}", with_unit.join(" or "));
     }
-    match nearest(found, known) {
+    match nearest(found, &known) {
         Some(near) => format!("did you mean '{near}'?"),
         None => format!("known here: {}", known.join(", ")),
     }

@@ -9,10 +9,16 @@ use serde_spanned::Spanned;
 use crate::error::{CutError, CutErrorKind, Result, within};
 use crate::law::Law;
 use crate::material::corrected::{Group, Material, MeasuredIn};
-use crate::source::{Source, bare, described, found_and_expected, nearest};
+use crate::source::{Source, Subject, bare};
 
 const MOST_BYTES: usize = 10_000_000;
 const MOST_MATERIALS: usize = 10_000;
+
+const MATERIALS: Subject = Subject {
+    entry: "material",
+    whole: "file of materials",
+    form: "keys and values as in library.toml: name, group, law, spread_percent, source, measured_in",
+};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -42,30 +48,6 @@ struct Entry {
 }
 
 impl Source<'_> {
-    /// A message of the TOML reader; for a key that is not known, with the nearest ones.
-    fn material_syntax(&self, error: &toml::de::Error) -> CutError {
-        let (byte, message) = described(error);
-        let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-        match (message.starts_with("unknown "), quoted.split_first()) {
-            (true, Some((given, known))) => {
-                let expected = match nearest(given, known.iter().copied(), 1).first() {
-                    Some(near) => format!("did you mean `{near}`?"),
-                    None => format!("one of {}", known.join(", ")),
-                };
-                let found = format!("`{given}` is not known here");
-                self.error(byte, "key of a material", found, expected)
-            }
-            _ => {
-                let whole = || {
-                    let expected = "keys and values as in library.toml: name, group, law, spread_percent, source, measured_in";
-                    (message.clone(), expected.to_owned())
-                };
-                let (found, expected) = found_and_expected(&message).unwrap_or_else(whole);
-                self.error(byte, "file of materials", found, expected)
-            }
-        }
-    }
-
     fn pair(
         &self,
         name: &str,
@@ -154,7 +136,7 @@ pub(crate) fn read(file: &str, text: &str) -> Result<Vec<Material>> {
         }
     };
     most("file of materials", text.len(), MOST_BYTES, "bytes")?;
-    let read: File = toml::from_str(text).map_err(|error| source.material_syntax(&error))?;
+    let read: File = toml::from_str(text).map_err(|error| source.toml_fault(&error, &MATERIALS))?;
     most(
         "materials",
         read.material.len(),

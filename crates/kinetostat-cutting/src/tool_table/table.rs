@@ -35,7 +35,7 @@ impl ToolTable {
     /// let table = ToolTable::read("tools.toml", text)?;
     /// assert_eq!(table.tool(3)?.tool.radius_mm(), 3.0);
     /// let error = ToolTable::read("tools.toml", &text.replace("teeth", "teth")).unwrap_err();
-    /// assert_eq!(error.to_string(), "tools.toml:6: key of a tool: `teth` is not known here; expected a known key, perhaps `teeth`");
+    /// assert_eq!(error.to_string(), "tools.toml:6: key of a tool: `teth` is not known here; did you mean `teeth`?");
     /// # Ok::<(), kinetostat_cutting::CutError>(())
     /// ```
     ///

@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use serde_spanned::Spanned;
 
 use crate::error::{CutError, CutErrorKind, Result, within};
-use crate::source::{self, Source, described, found_and_expected};
+use crate::source::{Source, Subject};
 use crate::tool::{RunOut, Shape, Tool};
 use crate::tool_table::linuxcnc::{LinuxCncTable, LinuxCncTool, MOST_BYTES, MOST_TOOLS};
 use crate::tool_table::written::{File, ShapeName, ToolEntry, WrittenTool};
@@ -14,6 +14,12 @@ use crate::tool_table::written::{File, ShapeName, ToolEntry, WrittenTool};
 /// Shares of the diameter: a D of `tool.tbl` up to this far from it is the measured diameter, one up to this far from zero
 /// the wear (LinuxCNC allows both).
 const SAME_DIAMETER: f64 = 0.1;
+
+const TOOLS: Subject = Subject {
+    entry: "tool",
+    whole: "table of tools",
+    form: "[[tool]] with number, shape, diameter_mm, teeth, each on a line of its own",
+};
 
 impl Source<'_> {
     fn shape(&self, entry: &WrittenTool) -> Result<Shape> {
@@ -243,7 +249,7 @@ pub(crate) fn read(
             "a line of a `tool.tbl` of LinuxCNC (T1 P1 D6 ...)".to_owned(),
             "a table in TOML with [[tool]]; `tool.tbl` is named beside it (tool_tbl under [cutters]), for it says nothing of teeth".to_owned(),
         ),
-        false => source.syntax(&error),
+        false => source.toml_fault(&error, &TOOLS),
     })?;
     most("tools", read.tool.len(), MOST_TOOLS)?;
     let mut lines: BTreeMap<u32, usize> = BTreeMap::new();
@@ -271,39 +277,6 @@ pub(crate) fn read(
 }
 
 impl Source<'_> {
-    /// A message of the TOML reader; for a key that is not known, with the nearest one.
-    pub(crate) fn syntax(&self, error: &toml::de::Error) -> CutError {
-        let (byte, message) = described(error);
-        let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-        let (quantity, found, expected) = match quoted.as_slice() {
-            [given, known @ ..] if message.starts_with("unknown ") => {
-                let expected = match nearest(given, known) {
-                    Some(near) => format!("a known key, perhaps `{near}`"),
-                    None => format!("one of {}", known.join(", ")),
-                };
-                (
-                    "key of a tool",
-                    format!("`{given}` is not known here"),
-                    expected,
-                )
-            }
-            [key] if message.starts_with("missing field") => (
-                "tool",
-                format!("no `{key}`"),
-                format!("a line `{key} = ...` under this [[tool]]"),
-            ),
-            _ => {
-                let whole = || {
-                    let expected = "[[tool]] with number, shape, diameter_mm, teeth, each on a line of its own";
-                    (message.clone(), expected.to_owned())
-                };
-                let (found, expected) = found_and_expected(&message).unwrap_or_else(whole);
-                ("table of tools", found, expected)
-            }
-        };
-        self.error(byte, quantity, found, expected)
-    }
-
     /// A number of a key within bounds; the error names the key and its line.
     pub(crate) fn number(
         &self,
@@ -317,12 +290,4 @@ impl Source<'_> {
             .map(Some)
             .map_err(self.placed(value))
     }
-}
-
-/// The nearest of some keys, if it is close enough to be a typing mistake; a key without its unit is meant to be the one
-/// with it.
-fn nearest<'k>(given: &str, known: &[&'k str]) -> Option<&'k str> {
-    let stem = format!("{given}_");
-    let with_unit = known.iter().copied().find(|key| key.starts_with(&stem));
-    with_unit.or_else(|| source::nearest(given, known.iter().copied(), 1).pop())
 }

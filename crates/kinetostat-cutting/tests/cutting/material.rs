@@ -264,7 +264,7 @@ fn faults_of_a_file_name_its_line_and_what_was_meant() {
     }
     let error = refused(&MINIMAL.replace("source = \"our dynamometer\"\n", ""));
     assert!(
-        error.to_string().contains("missing field `source`"),
+        error.to_string().contains("material: no `source`"),
         "{error}"
     );
     let error = refused(&format!(

@@ -146,13 +146,13 @@ fn each_mistake_is_named_with_its_line_and_key() {
             "diameter_mm = 6\n",
             "diameter = 6\n",
             6,
-            "perhaps `diameter_mm`",
+            "did you mean `diameter_mm`?",
         ),
         (
             "diameter_mm = 6\n",
             "diametr_mm = 6\n",
             6,
-            "perhaps `diameter_mm`",
+            "did you mean `diameter_mm`?",
         ),
         (
             "diameter_mm = 6\n",
@@ -166,7 +166,7 @@ fn each_mistake_is_named_with_its_line_and_key() {
         ("teeth = 2\nhelix", "teeth = 2.5\nhelix", 7, "2.5"),
         ("teeth = 2\nhelix", "helix", 2, "no `teeth`"),
         ("helix_deg = 30", "helix_deg = 80", 8, "helix: 80"),
-        ("\"flat\"", "\"flt\"", 5, "perhaps `flat`"),
+        ("\"flat\"", "\"flt\"", 5, "did you mean `flat`?"),
         (
             "flute_length_mm = 18",
             "flute_length_mm = 31",
@@ -238,7 +238,7 @@ fn each_mistake_is_named_with_its_line_and_key() {
             "[[tool]]\nnumber = 7",
             "[[tools]]\nnumber = 7",
             31,
-            "perhaps `tool`",
+            "did you mean `tool`?",
         ),
     ];
     for (from, to, line, words) in cases {

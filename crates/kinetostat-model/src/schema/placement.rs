@@ -2,11 +2,10 @@
 
 use std::fmt;
 
+use kinetostat_diagnostic::wrong_length;
 use schemars::JsonSchema;
 use serde::de::{Error, IntoDeserializer, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
-
-use crate::exact::wrong_length;
 
 /// A pose: at most one position and at most one orientation; what is left out is zero.
 ///

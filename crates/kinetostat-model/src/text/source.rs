@@ -5,6 +5,7 @@ use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
 
+use kinetostat_diagnostic::{TomlFault, TomlFaultKind};
 use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -37,20 +38,20 @@ impl<'t> Source<'t> {
 
     /// A message of the TOML reader as a finding.
     pub(crate) fn syntax(error: &toml::de::Error) -> Finding {
-        let reason = error.message().lines().collect::<Vec<_>>().join(", ");
-        let help = if reason.contains("duplicate key") {
-            "each key is written once in a table; keep one of them (a list of tables begins with [[name]])"
-        } else if reason.contains("expected newline") {
-            "one key and its value are on a line of their own; decimals are written with a point"
-        } else {
-            "a value is written as  key = 1.5,  key = \"text\",  key = [1, 2, 3];  a table begins with [name], a list of tables with [[name]]"
+        let fault = TomlFault::of(error);
+        let help = match fault.kind {
+            TomlFaultKind::DuplicateKey => {
+                "each key is written once in a table; keep one of them (a list of tables begins with [[name]])"
+            }
+            TomlFaultKind::LineGoesOn => {
+                "one key and its value are on a line of their own; decimals are written with a point"
+            }
+            _ => {
+                "a value is written as  key = 1.5,  key = \"text\",  key = [1, 2, 3];  a table begins with [name], a list of tables with [[name]]"
+            }
         };
-        Finding::new(
-            &KeyPath::root(),
-            format!("this is not TOML: {reason}"),
-            help,
-        )
-        .at(error.span().unwrap_or(0..0))
+        let message = format!("this is not TOML: {}", fault.message);
+        Finding::new(&KeyPath::root(), message, help).at(fault.span)
     }
 
     /// Byte range of a value; for a missing one, the table that should contain it.

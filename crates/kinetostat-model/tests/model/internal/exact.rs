@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use kinetostat_diagnostic::wrong_length;
 use kinetostat_model::exact_toml;
-use kinetostat_model::internal::wrong_length;
 use kinetostat_model::schema::{Axis, Deviation};
 use serde::Deserialize;
 use serde_spanned::Spanned;
