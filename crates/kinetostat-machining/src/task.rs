@@ -8,6 +8,7 @@ use crate::cut::profile::ForceAlongPath;
 use crate::limits::{Beyond, Limits};
 use crate::load::law::{ProgramLoad, Tool, tool_on};
 use crate::placement::Placement;
+use crate::result::joints::WayOut;
 use crate::result::run_result::RunInputs;
 use crate::weight_correction::WeightCorrection;
 
@@ -166,6 +167,14 @@ pub enum RunError {
     /// The program has no motion on which a correction could be needed.
     #[error("{0}")]
     NoMotion(NoMotion),
+    /// An arm cannot take a place, and a turn of its tool was looked for with which it can.
+    #[error("{error}. {}", way_out.description())]
+    ArmStops {
+        /// The error at the place.
+        error: Box<RunError>,
+        /// The turn, if there is one.
+        way_out: WayOut,
+    },
     /// Stopped on request.
     #[error("stopped on request; nothing was written")]
     Cancelled,
@@ -198,6 +207,7 @@ impl RunError {
     pub fn is_unanswered(&self) -> bool {
         match self {
             Self::Point { cause, .. } | Self::TouchOff { cause, .. } => cause.is_unanswered(),
+            Self::ArmStops { error, .. } => error.is_unanswered(),
             Self::Write(WriteError::Field { .. })
             | Self::Worse { .. }
             | Self::Unstable { .. }

@@ -273,13 +273,15 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
 
 /// Adds a hint on the turn of the tool if the arm cannot follow a program of positions that is written for a robot.
 fn with_turn_hint(mut failure: Failure, (setting, to): (&Setting, Option<RobotWord>)) -> Failure {
-    let helps = failure.plain.contains("turn of the tool") || failure.plain.contains("tool turned");
-    if helps && to.is_some() && setting.free_turn == FreeTurnWord::AsStated {
-        failure.plain.push_str(match failure.plain.contains("No turn of the tool") {
-            true => {
+    let Some(way_out) = &failure.way_out else {
+        return failure;
+    };
+    if to.is_some() && setting.free_turn == FreeTurnWord::AsStated {
+        failure.plain.push_str(match way_out.turn_about_tool_axis_deg {
+            None => {
                 ". That is of a turn that stays the same along the program: --free-turn (free_turn = \"choose\" under [robot]) looks for one that changes along it, of a round tool"
             }
-            false => {
+            Some(_) => {
                 ". --free-turn (free_turn = \"choose\" under [robot]) chooses the turn of a round tool along the path"
             }
         });

@@ -99,16 +99,15 @@ pub(crate) struct Checkpoint {
     lock: Option<fs::File>,
 }
 
-/// Start of messages about a checkpoint that cannot be saved.
-const NOT_KEPT: &str = "what is done so far cannot be kept";
-
 /// Failure to save a checkpoint.
 pub(crate) fn not_kept(path: &Path, error: &std::io::Error) -> Failure {
-    ErrorCode::Output.failure(format!(
-        "{NOT_KEPT} in '{}': {}",
+    let mut failure = ErrorCode::Output.failure(format!(
+        "what is done so far cannot be kept in '{}': {}",
         path.display(),
         description(error)
-    ))
+    ));
+    failure.is_not_kept = true;
+    failure
 }
 
 const MANIFEST: &str = "manifest.json";
@@ -201,10 +200,9 @@ impl Checkpoint {
     /// A failure of a run, with what becomes of what was done: where it was stopped, or that could not be kept.
     /// The folder stays where there is anything in it to go on from.
     pub(crate) fn left(self, mut failure: Failure) -> Failure {
-        let is_not_kept = failure.plain.starts_with(NOT_KEPT);
         let stopped = failure.code() == Code::Stopped;
         let has_work = self.has_work();
-        let done = match (has_work, is_not_kept, stopped) {
+        let done = match (has_work, failure.is_not_kept, stopped) {
             (true, true, _) => {
                 "; what was kept before is not lost, and the same command goes on from there"
                     .to_owned()

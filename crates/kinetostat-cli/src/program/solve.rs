@@ -353,6 +353,7 @@ pub(crate) fn failure_of(
 fn may_come_from_machine(error: &RunError) -> bool {
     match error {
         RunError::Point { .. }
+        | RunError::ArmStops { .. }
         | RunError::Worse { .. }
         | RunError::BeyondLimits(_)
         | RunError::Unstable { .. }

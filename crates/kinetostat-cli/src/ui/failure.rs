@@ -4,8 +4,8 @@ use std::fmt::Display;
 use std::ops::Range;
 
 use kinetostat_diagnostic::{Diagnostic, ErrorCode, Location};
-use kinetostat_machining::RunError;
 use kinetostat_machining::number::apart;
+use kinetostat_machining::{RunError, WayOut};
 use kinetostat_model::{ModelError, Problem, TextStyle, shortened};
 use kinetostat_program::WriteError;
 
@@ -65,6 +65,10 @@ pub(crate) struct Failure {
     pub(crate) place: Option<Range<usize>>,
     /// True if the content of the program was refused: the settings for reading it are right.
     pub(crate) is_of_program: bool,
+    /// Turn of the tool that was looked for, where an arm cannot follow a program.
+    pub(crate) way_out: Option<Box<WayOut>>,
+    /// True if what a long run has done so far could not be saved.
+    pub(crate) is_not_kept: bool,
     /// Kind of the error.
     kind: ErrorCode,
     /// The faults one by one, where there are several or where they have a location.
@@ -80,6 +84,8 @@ impl Failure {
             styled: None,
             place: None,
             is_of_program: false,
+            way_out: None,
+            is_not_kept: false,
             kind,
             faults: Vec::new(),
         }
@@ -194,17 +200,28 @@ pub(crate) const STOPPED: &str = "stopped on request; nothing was written";
 
 impl From<RunError> for Failure {
     fn from(error: RunError) -> Self {
-        match error {
-            RunError::Cancelled | RunError::Write(WriteError::Cancelled) => {
-                Self::new(ErrorCode::Stopped, STOPPED)
-            }
-            RunError::Point { ref cause, .. } | RunError::TouchOff { ref cause, .. } => {
-                Self::new(code_of(cause), error)
-            }
-            error if error.is_unanswered() => Self::new(ErrorCode::NoAnswer, error),
-            error @ RunError::WeightNotStated { .. } => Self::new(ErrorCode::Missing, error),
-            error => Self::new(ErrorCode::ProgramUnsuited, error),
+        if let RunError::Cancelled | RunError::Write(WriteError::Cancelled) = error {
+            return Self::new(ErrorCode::Stopped, STOPPED);
         }
+        let way_out = match &error {
+            RunError::ArmStops { way_out, .. } => Some(Box::new(*way_out)),
+            _ => None,
+        };
+        Self {
+            way_out,
+            ..Self::new(code_of_run(&error), error)
+        }
+    }
+}
+
+/// Kind of an error of a run.
+fn code_of_run(error: &RunError) -> ErrorCode {
+    match error {
+        RunError::ArmStops { error, .. } => code_of_run(error),
+        RunError::Point { cause, .. } | RunError::TouchOff { cause, .. } => code_of(cause),
+        error if error.is_unanswered() => ErrorCode::NoAnswer,
+        RunError::WeightNotStated { .. } => ErrorCode::Missing,
+        _ => ErrorCode::ProgramUnsuited,
     }
 }
 

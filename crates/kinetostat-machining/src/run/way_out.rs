@@ -158,31 +158,9 @@ pub(crate) fn with_way_out(task: &Task<'_>, error: RunError) -> RunError {
     ) {
         return error;
     }
-    let said = way_out(task, &arm, &Places::of_path(task, line, pose)).description();
-    match error {
-        RunError::Point {
-            line,
-            position_mm,
-            message,
-            cause,
-        } => RunError::Point {
-            line,
-            position_mm,
-            message: format!("{message}. {said}"),
-            cause,
-        },
-        RunError::Write(WriteError::Field {
-            line,
-            share,
-            position_mm,
-            message,
-        }) => RunError::Write(WriteError::Field {
-            line,
-            share,
-            position_mm,
-            message: format!("{message}. {said}"),
-        }),
-        other => other,
+    RunError::ArmStops {
+        way_out: way_out(task, &arm, &Places::of_path(task, line, pose)),
+        error: Box::new(error),
     }
 }
 

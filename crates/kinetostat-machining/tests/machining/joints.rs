@@ -494,10 +494,10 @@ fn a_planted_limit_is_reported_with_line_and_way_out() {
     let (text, placement) = through(&home);
     let force = vector![0.0, 0.0, 50.0];
     let error = run(&mechanism, &text, placement, force, Vec::new()).expect_err("a limit");
-    let RunError::Point {
-        line, ref message, ..
-    } = error
-    else {
+    let RunError::ArmStops { error, way_out } = error else {
+        panic!("{error}");
+    };
+    let RunError::Point { line, message, .. } = *error else {
         panic!("{error}");
     };
     assert_eq!(line, 4, "{message}");
@@ -505,13 +505,7 @@ fn a_planted_limit_is_reported_with_line_and_way_out() {
         message.contains("joint 5") && message.contains("73"),
         "{message}"
     );
-    let (_, rest) = message.split_once("turned by ").expect(message);
-    let turn: f64 = rest
-        .split(' ')
-        .next()
-        .expect("a number")
-        .parse()
-        .expect("a number");
+    let turn = way_out.turn_about_tool_axis_deg.expect("a turn");
     let mut turned = placement;
     turned.tool_orientation *=
         UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn.to_radians());
