@@ -13,6 +13,7 @@ use crate::elements::damping::{damping, damping_place};
 use crate::elements::placement::{corners, three_digits, written, written_pose};
 use crate::elements::rotary::{RotaryAxis, rotary_axes};
 use crate::findings::Findings;
+use crate::plausibility::LimbCheck;
 use crate::plausibility::home::{NOTHING_YIELDS, without_stiffness};
 use crate::presets::{preset_text, unknown_preset};
 use crate::problem::{Finding, KeyPath, ModelError, Problem, Severity};
@@ -208,6 +209,37 @@ impl Model {
     #[must_use]
     pub fn first_limb_line(&self) -> Option<usize> {
         self.line_of(&KeyPath::root().key("limb").index(0))
+    }
+
+    /// The line that states the inertia of a platform or of a body; of that, `limb.body` is understood, too.
+    #[must_use]
+    pub fn inertia_line(&self, part: &str) -> Option<usize> {
+        let mut platforms = self.mechanism.platforms().iter().skip(1);
+        let place = match platforms.position(|platform| platform.name == part) {
+            Some(index) => KeyPath::root()
+                .key("platform")
+                .index(index)
+                .key("inertia_kg_m2"),
+            None => self.body_place(part)?,
+        };
+        self.line_of(&place)
+    }
+
+    fn body_place(&self, part: &str) -> Option<KeyPath> {
+        let limbs = self.mechanism.limbs().iter().enumerate();
+        limbs.into_iter().find_map(|(limb, own)| {
+            let of_limb = part.strip_prefix(&format!("{}.", own.name));
+            let mut bodies = own.nominal.bodies().iter();
+            let body =
+                bodies.find(|body| body.name == part || Some(body.name.as_str()) == of_limb)?;
+            let check = LimbCheck {
+                document: &self.document,
+                mechanism: &self.mechanism,
+                limb,
+                size: 0.0,
+            };
+            Some(check.place(&body.name, &["inertia_kg_m2"]))
+        })
     }
 
     fn line_of(&self, place: &KeyPath) -> Option<usize> {

@@ -33,7 +33,7 @@ pub(crate) fn answer(
         None => {
             let ratios = ratios(machine, damping)?;
             let of_model = *damping == query.damping && !query.inputs.is_empty();
-            let place = query.damping_line.filter(|_| of_model);
+            let place = query.model.damping_line().filter(|_| of_model);
             let place = place.map(|line| (query.source.as_str(), line));
             warnings.extend(overdamped(machine, ratios.as_deref(), place));
             (

@@ -50,10 +50,8 @@ pub(crate) struct PlaceQuery {
     pub(crate) controller: Option<Controller>,
     /// Damping of vibrations by the model.
     pub(crate) damping: Damping,
-    /// The line that says so.
-    pub(crate) damping_line: Option<usize>,
-    /// The line at which the first limb of the model begins.
-    pub(crate) first_limb_line: Option<usize>,
+    /// The model as it was read, for the lines of what it says.
+    pub(crate) model: Model,
     pub(crate) wrench: Wrench,
     pub(crate) inputs: Vec<PathBuf>,
     pub(crate) deviations: Vec<String>,
@@ -149,8 +147,7 @@ pub(crate) fn place_query_of(
         joints,
         controller: read.controller.clone(),
         damping: read.damping(),
-        damping_line: read.damping_line(),
-        first_limb_line: read.first_limb_line(),
+        model: read.clone(),
         wrench,
         inputs: path.into_iter().collect(),
         deviations: deviation_descriptions(read),

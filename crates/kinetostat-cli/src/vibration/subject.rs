@@ -68,23 +68,14 @@ pub(crate) fn machine(
     })
 }
 
-/// File and line of an inertia that no body has (the model has warned of it), or of where masses are missing.
+/// File and line of an inertia that no body has, or of where masses are missing.
 fn line_of(error: &Error, query: &PlaceQuery) -> Option<String> {
-    let part = match error {
-        Error::Inertia { part, .. } => part,
+    let line = match error {
+        Error::Inertia { part, .. } => query.model.inertia_line(part)?,
         // A preset is no file that one could write in.
-        Error::NoMass(_) if !query.inputs.is_empty() => {
-            let line = query.first_limb_line?;
-            return Some(format!("{}, line {line}", query.source));
-        }
+        Error::NoMass(_) if !query.inputs.is_empty() => query.model.first_limb_line()?,
         _ => return None,
     };
-    let of_part = |warning: &&Warning| {
-        let own = warning.message.split('\'').nth(1);
-        own.is_some_and(|own| part == own || part.ends_with(&format!(".{own}")))
-            && warning.message.starts_with("the inertia of")
-    };
-    let line = query.warnings.iter().find(of_part)?.line?;
     Some(format!("{}, line {line}", query.source))
 }
 
