@@ -17,6 +17,8 @@ const ZERO: f64 = 1e-9;
 pub enum Grade {
     /// The matrix is no stiffness of a link.
     Refused,
+    /// The matrix holds nothing in some direction: a link has it only where a passive joint is meant.
+    Loose,
     /// The matrix may be one, but something should be checked.
     Doubtful,
 }
@@ -203,7 +205,7 @@ fn not_definite(
         ),
     };
     Some(Finding {
-        grade: Grade::Doubtful,
+        grade: Grade::Loose,
         message,
         help: "a direction that nothing holds is a passive joint of the chain, or the other end was not fixed".into(),
     })

@@ -19,6 +19,12 @@ pub enum ProgramErrorKind {
     Arc,
     /// A tool that is not known.
     Tool,
+    /// Variables or expressions, which have values only while the program runs.
+    Variables,
+    /// A word that decides which blocks run.
+    ControlStructure,
+    /// A subprogram, a macro, or a call of one.
+    Subprogram,
 }
 
 /// A program that is refused: where, what stands there, why, and what to do.

@@ -140,11 +140,8 @@ pub(crate) fn finish(
 }
 
 fn refuse_what_is_none(file: &Path, checked: &StiffnessCheck) -> Answer<()> {
-    let refused = checked.findings.iter().find(|f| f.grade == Grade::Refused);
-    let loose = (!checked.is_definite())
-        .then(|| checked.findings.iter().find(|f| f.message.contains("rank")))
-        .flatten();
-    match refused.or(loose) {
+    let of_grade = |grade| checked.findings.iter().find(|f| f.grade == grade);
+    match of_grade(Grade::Refused).or_else(|| of_grade(Grade::Loose)) {
         Some(finding) => Err(ErrorCode::FileForm.failure(format!(
             "{}: this is no stiffness that a link can have: {}; {}",
             file.display(),

@@ -6,6 +6,7 @@ use std::ops::Range;
 use crate::error::ProgramError;
 use crate::model::Language;
 use crate::model::motion::Motion;
+use crate::model::parsed::outside_calls;
 use crate::model::site::Declaration;
 use crate::model::stated_value::StatedValue;
 use crate::text::number::in_words;
@@ -87,6 +88,13 @@ impl RobotProgram {
     pub fn calls_taken_to_stay(&self) -> Vec<(&str, usize)> {
         let named = by_name(&self.outside_calls).into_iter();
         named.filter_map(|of| Some((of.name?, of.line()))).collect()
+    }
+
+    /// Finding on the first call of what is in none of its files, or of what only the run computes: that may move the tool.
+    #[must_use]
+    pub fn first_outside_call(&self) -> Option<Finding> {
+        let calls = outside_calls(self.language, &self.outside_calls).into_iter();
+        calls.min_by_key(|finding| (finding.file, finding.line))
     }
 
     /// Lines of a file, counted from 1, that hold a part of a motion or of a declared target.

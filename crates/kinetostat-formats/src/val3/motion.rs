@@ -211,8 +211,8 @@ impl Run<'_, '_> {
         });
         let mut position = numbers.collect::<Option<Vec<NumberText>>>()?;
         let orientation = position.split_off(3);
-        let text = std::str::from_utf8(source.part(&whole)).ok()?;
-        let is_copied = !is_element || text.contains("fatherId=") && !text.contains("key=");
+        let written = std::str::from_utf8(source.part(&whole)).ok()?;
+        let is_copied = !is_element || written.contains("fatherId=") && !written.contains("key=");
         is_copied.then_some(PoseText {
             file,
             whole,

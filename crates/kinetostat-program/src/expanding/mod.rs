@@ -15,7 +15,7 @@ mod translate;
 
 use std::collections::BTreeMap;
 
-use crate::error::ProgramError;
+use crate::error::{ProgramError, ProgramErrorKind};
 use crate::path::moves::{Path, Warning};
 use crate::reading::options::ReadOptions;
 use crate::text::program::Program;
@@ -159,7 +159,7 @@ pub struct Expanded {
 
 /// Error of a flat block, mapped to its source line.
 pub(crate) fn of_source(error: ProgramError, line: usize, file: &str) -> ProgramError {
-    let (reason, remedy) = while_expanding(error.reason, error.remedy);
+    let (reason, remedy) = while_expanding(&error);
     let reason = match file {
         "" => reason,
         name => format!("in the subprogram '{name}': {reason}"),
@@ -172,22 +172,21 @@ pub(crate) fn of_source(error: ProgramError, line: usize, file: &str) -> Program
     }
 }
 
-/// Rewrites remedies that advise `--expand`, which is under way here.
-fn while_expanding(reason: String, remedy: String) -> (String, String) {
-    if !remedy.starts_with("add --expand") {
-        return (reason, remedy);
-    }
-    let remedy = match (
-        reason.contains("control structure"),
-        reason.contains("variables"),
-    ) {
-        (true, _) => "write it in a line of its own, as in IF [#1 GT 0] GOTO 10",
-        (false, true) => "write a value as a letter and an expression in brackets, as in X[#1 + 2]",
-        (false, false) => {
+/// Reason and remedy of an error; the remedy of what is only read with `--expand`, which is under way here, is another one.
+fn while_expanding(error: &ProgramError) -> (String, String) {
+    let remedy = match error.kind {
+        ProgramErrorKind::ControlStructure => {
+            "write it in a line of its own, as in IF [#1 GT 0] GOTO 10"
+        }
+        ProgramErrorKind::Variables => {
+            "write a value as a letter and an expression in brackets, as in X[#1 + 2]"
+        }
+        ProgramErrorKind::Subprogram => {
             "this call is not followed: write M98 and P, an O word with call, or the blocks of the subprogram"
         }
+        _ => return (error.reason.clone(), error.remedy.clone()),
     };
-    let what = reason.split(';').next().unwrap_or_default();
+    let what = error.reason.split(';').next().unwrap_or_default();
     (what.to_owned(), remedy.to_owned())
 }
 

@@ -8,7 +8,6 @@ use crate::reading::interpreting::Interpreter;
 use crate::reading::options::{ReadOptions, Units};
 use crate::text::library::only_definitions;
 use crate::text::program::Program;
-use crate::text::syntax::VARIABLES;
 
 /// Everything that is refused in a program, in the order of its lines, at most one fault a line; empty
 /// where [`Program::read`] and [`crate::interpret`] take it.
@@ -120,7 +119,7 @@ fn ends_of(refused: &[u32]) -> Ends {
 
 /// One fault for all lines with variables.
 fn of_variables_once(found: Vec<ProgramError>) -> Vec<ProgramError> {
-    let is_one = |fault: &ProgramError| fault.reason == VARIABLES;
+    let is_one = |fault: &ProgramError| fault.kind == ProgramErrorKind::Variables;
     let count = found.iter().filter(|fault| is_one(fault)).count();
     let mut first = true;
     let mut kept = Vec::with_capacity(found.len());
@@ -130,7 +129,7 @@ fn of_variables_once(found: Vec<ProgramError>) -> Vec<ProgramError> {
                 continue;
             }
             if count > 1 {
-                fault.reason = format!("{VARIABLES}, on {count} lines");
+                fault.reason.push_str(&format!(", on {count} lines"));
             }
         }
         kept.push(fault);

@@ -590,8 +590,11 @@ impl Reader {
         if significant.is_empty() {
             return Ok((LineKind::Words, block_delete));
         }
-        let checked = syntax::check(text, &significant, self.blocks == 0)
-            .map_err(|found| refuse(found.span, &found.reason, found.remedy))?;
+        let checked =
+            syntax::check(text, &significant, self.blocks == 0).map_err(|found| ProgramError {
+                kind: found.kind,
+                ..refuse(found.span, &found.reason, found.remedy)
+            })?;
         self.blocks += 1;
         self.keep_words(&content, significant[..checked.words].iter().copied());
         Ok((checked.kind, block_delete))

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::error::ProgramErrorKind;
 use crate::text::LineKind;
 use crate::text::lex::{Spanned, Token};
 
@@ -14,6 +15,7 @@ pub(crate) struct Checked {
 
 /// A line that is refused; the span is within the line.
 pub(crate) struct Refused {
+    pub kind: ProgramErrorKind,
     pub span: Range<usize>,
     pub reason: String,
     pub remedy: &'static str,
@@ -21,9 +23,6 @@ pub(crate) struct Refused {
 
 pub(crate) const FLATTEN: &str = "add --expand (in a job file: a table [expand]), flatten the program with `kinetostat expand`, or post-process it without subprograms";
 const NO_VARIABLES: &str = "add --expand (in a job file: a table [expand]), flatten the program with `kinetostat expand`, or let the CAM system write plain numbers";
-
-/// Reason for which a line with variables is refused.
-pub(crate) const VARIABLES: &str = "variables and expressions are not read";
 
 /// Checks the tokens of a line without comments and blanks.
 pub(crate) fn check(
@@ -55,6 +54,7 @@ pub(crate) fn check(
             Token::Other(byte) => return Err(other(line, tokens, index, byte)),
             Token::Quoted => {
                 return Err(Refused {
+                    kind: ProgramErrorKind::Malformed,
                     span: spanned.span.clone(),
                     reason: "a quoted text appears in a block that is no vendor's M command"
                         .to_owned(),
@@ -170,6 +170,7 @@ fn exponent(line: &[u8], tokens: &[&Spanned], index: usize) -> Result<(), Refuse
         .unwrap_or(digits);
     if touching && unsigned.len() <= 3 && unsigned.iter().all(u8::is_ascii_digit) {
         return Err(Refused {
+            kind: ProgramErrorKind::Malformed,
             span: before.span.start..tokens[index].span.end,
             reason: "this may be a number with an exponent or a word E after another word"
                 .to_owned(),
@@ -221,6 +222,7 @@ fn letters(line: &[u8], tokens: &[&Spanned], index: usize) -> Refused {
     ];
     if keywords.contains(&name.as_str()) {
         return Refused {
+            kind: ProgramErrorKind::ControlStructure,
             span,
             reason: format!(
                 "{name} is a control structure; which blocks run is not known from the text"
@@ -236,12 +238,14 @@ fn letters(line: &[u8], tokens: &[&Spanned], index: usize) -> Refused {
     }
     if length == 1 || name.ends_with("NAN") || name.ends_with("INF") {
         return Refused {
+            kind: ProgramErrorKind::Malformed,
             span,
             reason: format!("{} has no number", &name[..1]),
             remedy: "write a fixed-point number such as -12.5 after the letter",
         };
     }
     Refused {
+        kind: ProgramErrorKind::Malformed,
         span,
         reason: format!(
             "{name} is no word of a letter and a number (a macro, a call or plain text?)"
@@ -262,7 +266,7 @@ fn other(line: &[u8], tokens: &[&Spanned], index: usize, byte: u8) -> Refused {
                 .position(|before| matches!(before.token, Token::Letter(letter) if letter != b'O'));
             if let Some(at) = keyword {
                 let refused = letters(line, tokens, at);
-                if refused.reason.contains("control structure") {
+                if refused.kind == ProgramErrorKind::ControlStructure {
                     return refused;
                 }
             }
@@ -272,7 +276,12 @@ fn other(line: &[u8], tokens: &[&Spanned], index: usize, byte: u8) -> Refused {
             {
                 return subprogram(spanned, "an O word");
             }
-            (VARIABLES.to_owned(), NO_VARIABLES)
+            return Refused {
+                kind: ProgramErrorKind::Variables,
+                span: spanned.span.clone(),
+                reason: "variables and expressions are not read".to_owned(),
+                remedy: NO_VARIABLES,
+            };
         }
         b'.' if after_word => (
             "a number has two points".to_owned(),
@@ -317,6 +326,7 @@ fn other(line: &[u8], tokens: &[&Spanned], index: usize, byte: u8) -> Refused {
         ),
     };
     Refused {
+        kind: ProgramErrorKind::Malformed,
         span: spanned.span.clone(),
         reason,
         remedy,
@@ -325,6 +335,7 @@ fn other(line: &[u8], tokens: &[&Spanned], index: usize, byte: u8) -> Refused {
 
 fn subprogram(spanned: &Spanned, what: &str) -> Refused {
     Refused {
+        kind: ProgramErrorKind::Subprogram,
         span: spanned.span.clone(),
         reason: of_subprogram(what),
         remedy: FLATTEN,

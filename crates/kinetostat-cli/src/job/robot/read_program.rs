@@ -122,12 +122,7 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
             ),
         ));
     }
-    let mut calls = program.findings.iter();
-    let call = calls.find(|finding| {
-        let said = |text| finding.message.contains(text);
-        said("if it moves the tool") || said("taken not to move the tool")
-    });
-    if let (true, Some(first)) = (program.motions.is_empty(), call) {
+    if let (true, Some(first)) = (program.motions.is_empty(), program.first_outside_call()) {
         let file = program.files.get(first.file).map_or("", |file| file.name());
         return Err(ErrorCode::ProgramUnsuited.failure(format!(
                 "{file}, line {}: the program has no motion of its own, and {}; compensate the files with the motions one by one",

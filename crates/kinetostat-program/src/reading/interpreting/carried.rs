@@ -104,9 +104,9 @@ impl Interpreter<'_> {
         let Some(called) = words.iter().find(|word| word.letter == b'P') else {
             return Ok(false);
         };
-        let refused = |reason: &str, remedy: &str| {
+        let refused = |kind, reason: &str, remedy: &str| {
             let block = Block::understood(program, index);
-            Err(block.refuse(ProgramErrorKind::UnknownCode, Some(call), reason, remedy))
+            Err(block.refuse(kind, Some(call), reason, remedy))
         };
         let number = called.value as u32;
         if !self.options.of_fanuc_run || f64::from(number) != called.value {
@@ -114,10 +114,11 @@ impl Interpreter<'_> {
                 b'M' => "M98",
                 _ => "the macro call G65",
             };
-            return refused(&of_subprogram(what), FLATTEN);
+            return refused(ProgramErrorKind::Subprogram, &of_subprogram(what), FLATTEN);
         }
         if self.options.moving_calls.contains(&number) {
             return refused(
+                ProgramErrorKind::UnknownCode,
                 &format!(
                     "O{number} moves the tool, as is stated, and none of the files says where to"
                 ),
