@@ -60,6 +60,7 @@ use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::Watch;
 
 use crate::command_line::help::{with_help_words, with_short_help};
+use crate::command_line::inputs::{self, with_spellings};
 use crate::command_line::{Cli, Command, no_number, plain_numbers};
 use crate::files::journal;
 use crate::ui::failure::{Answer, Code, Failing, Failure};
@@ -152,6 +153,10 @@ fn answer(words: impl Iterator<Item = OsString>, begin: impl FnOnce()) -> u8 {
     if let Some(what) = no_number(&words) {
         return refused(&ErrorCode::Value.failure(what), asks_for_json);
     }
+    let words = match inputs::in_place(&Cli::command(), words) {
+        Ok(words) => words,
+        Err(failure) => return refused(&failure, asks_for_json),
+    };
     let (cli, given) = match parsed(words) {
         Ok(parsed) => parsed,
         Err(error) => {
@@ -196,7 +201,7 @@ fn refused(failure: &Failure, as_json: bool) -> u8 {
 
 /// The command of a line, and the options that it gives.
 fn parsed(words: Vec<OsString>) -> Result<(Cli, Given), clap::Error> {
-    let mut command = Cli::command();
+    let mut command = with_spellings(Cli::command());
     if words.iter().any(|word| word == "-h") {
         command = with_short_help(command);
     }

@@ -81,7 +81,7 @@ def engagement(
     Parameters
     ----------
     subject : path
-        G-code program, or a job file (its name ends in .toml)
+        G-code program, or a job file
     job : path
         Job file (TOML), for everything that no option says
     program : path

@@ -3,6 +3,7 @@
 //! It takes the words of the command line, negative numbers among them made readable, and gives a [`Command`].
 
 pub(crate) mod help;
+pub(crate) mod inputs;
 
 use std::ffi::OsString;
 
@@ -66,6 +67,8 @@ use crate::verify::arguments::VerifyArgs;
         "      what does a program cut where, with which force and torque?\n",
         "  kinetostat check my_robot.toml\n",
         "      what does the model file say, in words?\n\n",
+        "Inputs: a model, a job and a program are recognised by their content. Each is given\n",
+        "as an argument or by --model, --job or --program; - reads standard input.\n\n",
         "Exit codes:\n",
         "  0    answered\n",
         "  1    wrong input: a file, a number or an option; the message says which\n",

@@ -19,7 +19,7 @@ use crate::options::number;
 #[derive(Debug, Args)]
 #[command(after_help = CODES, after_long_help = ENGAGEMENT_HELP)]
 pub(crate) struct EngagementArgs {
-    /// G-code program, or a job file (its name ends in .toml)
+    /// G-code program, or a job file
     #[arg(value_name = "PROGRAM|JOB", required_unless_present_any = ["job", "program"])]
     pub(crate) subject: Option<PathBuf>,
     /// Job file (TOML), for everything that no option says

@@ -6,7 +6,6 @@
 mod answer;
 pub(crate) mod arguments;
 mod cut;
-mod subject;
 mod text;
 
 use kinetostat_cutting::Stock;
@@ -20,7 +19,6 @@ use kinetostat_report::{Cell, PlotLine, PlotMark, Section, engagement_svg};
 use crate::engagement::answer::{EngagementAnswer, StockAnswer, ToolAnswer};
 use crate::engagement::arguments::EngagementArgs;
 use crate::engagement::cut::cut;
-use crate::engagement::subject::subject;
 use crate::files::answer_files::{ClaimedFiles, Shown};
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
@@ -44,11 +42,12 @@ pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<EngagementAnswer>(
 
 pub(crate) fn run(args: &EngagementArgs) -> Answer<()> {
     let files = InputFiles::default();
-    let subject = subject(args)?;
-    let job = subject.job.map(|path| JobFile::read(&files, path));
+    let job = args.job.as_ref();
+    let job = job.map(|path| JobFile::read(&files, path));
     let job = job.transpose()?;
     let flags = ProgramArgs {
-        program: subject.program,
+        // The command line gives a recognised file as a job or a program; any other is taken for a program.
+        program: args.program.clone().or(args.subject.clone()),
         reading: args.reading.clone(),
         expansion: args.expansion.clone(),
         ..ProgramArgs::default()

@@ -1,13 +1,14 @@
-//! Kinds of files that are told apart by what is in them: a job, a model or a program in the place of another is named as such.
+//! Kinds of files by their content: a file of one kind in the place of another is named as such.
 
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use kinetostat_diagnostic::ErrorCode;
-use kinetostat_formats::language_of;
+use kinetostat_formats::{language_of, odd_program};
 use toml::de::{DeTable, DeValue};
 
+use crate::files::standard_input;
 use crate::ui::failure::{Answer, Failing};
 
 /// Bytes that are looked at of a large file.
@@ -22,6 +23,14 @@ pub(crate) enum FileKind {
     Job,
     Model,
     Program,
+    /// A robot in URDF, or a macro of it.
+    Urdf,
+    /// Another text in XML.
+    Xml,
+    /// A table with the names of its columns: measured points, corrections, loads.
+    Table,
+    /// A table in Parquet that is no program.
+    Parquet,
 }
 
 impl FileKind {
@@ -29,6 +38,10 @@ impl FileKind {
     pub(crate) fn of(path: &Path, bytes: &[u8]) -> Option<Self> {
         let name = path.file_name()?.to_string_lossy();
         let text = String::from_utf8_lossy(bytes);
+        if is_xml(bytes) {
+            let is_robot = text.contains("<robot");
+            return Some(if is_robot { Self::Urdf } else { Self::Xml });
+        }
         if let Ok(tree) = DeTable::parse(&text) {
             let has = |key: &str| tree.get_ref().keys().any(|k| k.get_ref() == key);
             return match (
@@ -40,15 +53,25 @@ impl FileKind {
                 (false, false) => None,
             };
         }
+        let mut lines = text.lines();
+        let columns = lines.find(|line| !line.trim().is_empty()).and_then(columns);
         let is_toml = name.to_ascii_lowercase().ends_with(".toml");
-        let is_program =
-            language_of(&name, bytes).is_some() || text.lines().take(LINES).any(is_block);
-        (!is_toml && is_program).then_some(Self::Program)
+        let is_program = language_of(&name, bytes).is_some()
+            || odd_program(&name, bytes).is_some()
+            || text.lines().take(LINES).any(is_block);
+        match columns {
+            _ if is_toml => None,
+            Some(names) if !are_poses(&names) => Some(Self::Table),
+            _ if is_program => Some(Self::Program),
+            Some(_) => Some(Self::Table),
+            None => bytes.starts_with(b"PAR1").then_some(Self::Parquet),
+        }
     }
 
     /// The kind of a file on disk; `None` of one that cannot be read.
     pub(crate) fn of_file(path: &Path) -> Option<Self> {
-        let bytes = beginning(path).filter(|_| path.is_file())?;
+        let is_file = path.is_file() || standard_input::is(path);
+        let bytes = beginning(path).filter(|_| is_file)?;
         Self::of(path, &bytes)
     }
 
@@ -57,12 +80,29 @@ impl FileKind {
             Self::Job => "a job file",
             Self::Model => "a model",
             Self::Program => "a program",
+            Self::Urdf => "a robot in URDF",
+            Self::Xml => "a file in XML",
+            Self::Table => "a table (CSV)",
+            Self::Parquet => "a table (Parquet)",
+        }
+    }
+
+    /// Name of the option for an input of this kind; empty if there is none.
+    pub(crate) fn option(self) -> &'static str {
+        match self {
+            Self::Job => "job",
+            Self::Model => "model",
+            Self::Program => "program",
+            Self::Urdf | Self::Xml | Self::Table | Self::Parquet => "",
         }
     }
 
     /// Remedy if this kind was given for another one.
     fn advice(self, needed: Self, path: &Path, named: Option<&str>) -> String {
-        let path = path.display();
+        let path = match standard_input::is(path) {
+            true => "-".to_owned(),
+            false => path.display().to_string(),
+        };
         match (self, needed) {
             (Self::Program, Self::Job) => format!(
                 "name it in a job file (program = \"{path}\"), or give it as --program {path} with --model MODEL"
@@ -74,9 +114,21 @@ impl FileKind {
                 Some(named) => format!("give the one that it names, '{named}'"),
                 None => "it names none: write its path".to_owned(),
             },
-            (Self::Program, _) => {
-                "give a preset (`kinetostat model list`) or a model file, and the program as --program where the command has it".to_owned()
+            (Self::Program, _) => format!(
+                "give a preset (`kinetostat model list`) or a model file. `kinetostat compensate --model MODEL --program {path}` takes the program"
+            ),
+            (Self::Urdf, _) => format!(
+                "`kinetostat import urdf {path} --out model.toml` writes a model of it (expand a xacro file first)"
+            ),
+            (Self::Xml, _) => {
+                "no command reads it, but robots in URDF (`kinetostat import urdf`)".to_owned()
             }
+            (Self::Table, _) => format!(
+                "`kinetostat mirror PROGRAM --measured {path}` takes measured points, `kinetostat compensate --map {path} --program FILE` takes corrections"
+            ),
+            (Self::Parquet, _) => format!(
+                "a list of poses is a program: `kinetostat compensate --model MODEL --program {path}` takes it if its name ends in .parquet"
+            ),
             (Self::Model, _) => "give it as --model where the command has that".to_owned(),
         }
     }
@@ -93,6 +145,33 @@ fn is_block(line: &str) -> bool {
         && letters
             .next()
             .is_some_and(|c| c.is_ascii_digit() || matches!(c, '-' | '.'))
+}
+
+/// True of a text in XML.
+pub(crate) fn is_xml(bytes: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let bytes = bytes.trim_ascii_start();
+    bytes.first() == Some(&b'<')
+        && bytes
+            .get(1)
+            .is_some_and(|b| b"?!".contains(b) || b.is_ascii_alphabetic())
+}
+
+/// Names of the columns of a table, if this is its first line: words without spaces between commas, semicolons or tabs.
+fn columns(line: &str) -> Option<Vec<String>> {
+    let names = line.split([',', ';', '\t']).map(str::trim);
+    let names: Vec<String> = names.map(str::to_ascii_lowercase).collect();
+    let is_name = |name: &String| {
+        name.starts_with(|c: char| c.is_ascii_alphabetic())
+            && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+    };
+    (names.len() > 1 && names.iter().all(is_name)).then_some(names)
+}
+
+/// True of the columns of a list of poses, which is a program.
+fn are_poses(names: &[String]) -> bool {
+    let has = |start: &str| names.iter().any(|name| name.starts_with(start));
+    (has("x") || has("joint")) && !has("dx")
 }
 
 /// Refuses a file of another kind than the one that is needed.
@@ -125,6 +204,9 @@ pub(crate) fn refuse_other_kind(path: &Path, bytes: &[u8], needed: FileKind) -> 
 
 /// The beginning of a file, if it can be read.
 pub(crate) fn beginning(path: &Path) -> Option<Vec<u8>> {
+    if standard_input::is(path) {
+        return standard_input::beginning(LOOKED_AT).ok();
+    }
     let mut bytes = Vec::new();
     let read = File::open(path)
         .ok()?

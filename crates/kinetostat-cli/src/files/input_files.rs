@@ -9,7 +9,8 @@ use std::path::{Path, PathBuf};
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_model::{Model, preset_text, read_model};
 
-use crate::files::file_kind::{FileKind, beginning, refuse_other_kind};
+use crate::files::file_kind::{FileKind, beginning, is_xml, refuse_other_kind};
+use crate::files::standard_input;
 use crate::ui::failure::{Answer, Failing};
 
 /// Largest program or map that is read, bytes.
@@ -21,6 +22,9 @@ const MOST_SETTINGS_BYTES: u64 = 1 << 20;
 
 /// Largest state of trials, bytes; a state has seven numbers for each of its stations.
 pub(crate) const MOST_STATE_BYTES: u64 = 16 << 20;
+
+/// Largest model that is read from standard input, bytes: as of a file.
+const MOST_MODEL_BYTES: u64 = 16 << 20;
 
 /// Files on disk, and some that are not there yet.
 #[derive(Clone, Debug, Default)]
@@ -37,7 +41,7 @@ impl InputFiles {
     /// The bytes of a file; `what` names its part in the question.
     pub(crate) fn bytes(&self, what: &str, path: &Path) -> Answer<Vec<u8>> {
         let bytes = self.at_most(what, path, MOST_BYTES)?;
-        if what == "program" && is_toml(path) {
+        if what == "program" && may_be_other_kind(path, &bytes) {
             refuse_other_kind(path, &bytes, FileKind::Program)?;
         }
         Ok(bytes)
@@ -94,6 +98,12 @@ impl InputFiles {
             let text = String::from_utf8_lossy(bytes).into_owned();
             return Ok((Model::from_toml(&text, named)?, Some(path)));
         }
+        if standard_input::is(&path) {
+            let bytes = self.at_most("model", &path, MOST_MODEL_BYTES)?;
+            refuse_other_kind(&path, &bytes, FileKind::Model)?;
+            let text = text_in("model", &path, bytes)?;
+            return Ok((Model::from_toml(&text, named)?, Some(path)));
+        }
         let like_a_path = named.contains(['/', '\\', '.']) || path.exists();
         if like_a_path {
             let first = beginning(&path).unwrap_or_default();
@@ -123,9 +133,11 @@ pub(crate) fn refuse_beyond_memory(path: &Path, bytes: usize, lines: usize) -> A
     })
 }
 
-fn is_toml(path: &Path) -> bool {
+/// True of a program that may be a job, a model or a description of a robot instead. Any text is a program otherwise.
+fn may_be_other_kind(path: &Path, bytes: &[u8]) -> bool {
     let ending = path.extension();
-    ending.is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
+    let is_toml = ending.is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    is_toml || standard_input::is(path) || is_xml(bytes)
 }
 
 /// Bytes that are text.
@@ -153,6 +165,18 @@ fn read(what: &str, path: &Path, most: u64) -> Answer<Vec<u8>> {
     let refuse = |message: &str| {
         ErrorCode::FileNotRead.failure(format!("the {what} '{}' {message}", path.display()))
     };
+    let too_large = || {
+        let most = most >> 20;
+        refuse(&format!("is larger than {most} MB, which no {what} is"))
+    };
+    if standard_input::is(path) {
+        let bytes = standard_input::beginning(most + 1)
+            .map_err(|error| refuse(&format!("cannot be read: {error}")))?;
+        return match bytes.len() as u64 > most {
+            true => Err(too_large()),
+            false => Ok(bytes),
+        };
+    }
     if path.is_dir() {
         return Err(refuse("is a directory; name a file in it"));
     }
@@ -173,10 +197,7 @@ fn read(what: &str, path: &Path, most: u64) -> Answer<Vec<u8>> {
             .map_err(|error| refuse(&format!("cannot be read: {error}")))?;
     }
     if told.max(bytes.len() as u64) > most {
-        return Err(refuse(&format!(
-            "is larger than {} MB, which no {what} is",
-            most >> 20
-        )));
+        return Err(too_large());
     }
     Ok(bytes)
 }

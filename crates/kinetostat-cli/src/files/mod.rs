@@ -14,3 +14,4 @@ pub(crate) mod journal;
 pub(crate) mod origin;
 pub(crate) mod outputs;
 pub(crate) mod paths;
+pub(crate) mod standard_input;

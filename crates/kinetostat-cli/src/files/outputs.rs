@@ -12,6 +12,7 @@ use tempfile::NamedTempFile;
 
 use crate::files::journal::{self, Contents, Entry, Journal};
 use crate::files::paths::{is_own_folder, parent_of, same_bytes, same_file, same_place};
+use crate::files::standard_input;
 use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::progress::still_wanted;
 use crate::ui::safe_text::safe;
@@ -206,6 +207,11 @@ impl Outputs {
             .iter()
             .map(|c| (c.what, c.target.as_path()))
             .collect();
+        if standard_input::is_name_of(target) {
+            return Err(ErrorCode::Missing.failure(format!(
+                "the {what} has no name of its own, since the program is read from standard input; name it by its option, such as --out FILE"
+            )));
+        }
         may_be_written(what, target, &self.inputs, &others)?;
         let refuse = |reason: &str| refused(what, target, reason);
         let is_own = |entry: &Entry| entry.is_in_place(target);

@@ -6,13 +6,15 @@ use std::path::Path;
 use kinetostat::MotionKind;
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_import::{
-    Imported, JointStiffness, LoopFile, UrdfOptions, import_urdf, read_section, read_text,
+    Imported, JointStiffness, LoopFile, UrdfOptions, import_urdf, read_section,
 };
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::files::csv_text::with_decimal_points;
+use crate::files::input_files::InputFiles;
 use crate::files::outputs::{Existing, Outputs};
+use crate::files::standard_input;
 use crate::import::arguments::UrdfArgs;
 use crate::ui::failure::{Answer, Failing};
 use crate::ui::json;
@@ -61,7 +63,7 @@ pub(crate) fn urdf(args: &UrdfArgs) -> Answer<()> {
     let mut inputs = vec![args.file.clone()];
     inputs.extend(args.loops.clone());
     inputs.extend(args.link_section.clone());
-    let text = read_text("URDF file", &args.file)?;
+    let text = text("URDF file", &args.file)?;
     let options = options(args, &mut inputs)?;
     let existing = Existing::forced(args.force_overwrite);
     let mut outputs = Outputs::new(existing, inputs);
@@ -91,12 +93,20 @@ pub(crate) fn urdf(args: &UrdfArgs) -> Answer<()> {
     screen::print_bytes(imported.toml.as_bytes())
 }
 
+/// Text of an input.
+fn text(what: &str, path: &Path) -> Answer<String> {
+    match standard_input::is(path) {
+        true => InputFiles::default().text(what, path),
+        false => Ok(kinetostat_import::read_text(what, path)?),
+    }
+}
+
 fn options(args: &UrdfArgs, inputs: &mut Vec<std::path::PathBuf>) -> Answer<UrdfOptions> {
     let named = |path: &Path| path.display().to_string();
     let loops = match &args.loops {
         Some(path) => Some(LoopFile {
             file: named(path),
-            text: read_text("loop file", path)?,
+            text: text("loop file", path)?,
         }),
         None => None,
     };
@@ -109,17 +119,14 @@ fn options(args: &UrdfArgs, inputs: &mut Vec<std::path::PathBuf>) -> Answer<Urdf
                 inputs.push(path.to_owned());
                 JointStiffness::Table {
                     file: word.clone(),
-                    text: with_decimal_points(&read_text("table of joint stiffnesses", path)?)
+                    text: with_decimal_points(&text("table of joint stiffnesses", path)?)
                         .into_owned(),
                 }
             }
         },
     };
     let section = match &args.link_section {
-        Some(path) => Some(read_section(
-            &read_text("section file", path)?,
-            &named(path),
-        )?),
+        Some(path) => Some(read_section(&text("section file", path)?, &named(path))?),
         None => None,
     };
     let mut home = BTreeMap::new();

@@ -302,7 +302,7 @@ fn what_is_missing_or_wrong_is_named() {
         ),
         (
             "--job job.toml --program other.ngc".to_owned(),
-            "two programs are named",
+            "'other.ngc' and 'slot.ngc' are given, and the command takes one program",
         ),
         ("--job none.toml".to_owned(), "'none.toml' does not exist"),
     ] {
@@ -310,7 +310,7 @@ fn what_is_missing_or_wrong_is_named() {
         assert!(said.contains(word), "{word}: {said}");
     }
     let said = refused(here.path(), "engagement job.toml --job job.toml");
-    assert!(said.contains("two job files are named"), "{said}");
+    assert!(said.contains("the command takes one job"), "{said}");
     // No input is overwritten, the files of options among them.
     for target in ["slot.ngc", "wax.toml"] {
         let line = format!(

@@ -49,6 +49,7 @@ mod identical;
 mod implausible;
 mod import;
 mod import_link;
+mod inputs_in_one_grammar;
 mod jobs;
 mod jobs_over_commands;
 mod joint_tables;

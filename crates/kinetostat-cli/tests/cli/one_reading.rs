@@ -325,19 +325,16 @@ fn a_file_of_another_kind_is_called_what_it_is() {
     for (command, needles) in [
         (
             "compensate part.ngc",
-            ["'part.ngc' is a program", "--program part.ngc"],
+            ["no model is named", "--model MODEL"],
         ),
         (
             "chatter part.ngc --damping 0.03",
             ["'part.ngc' is a program", "a job file is needed"],
         ),
-        (
-            "place part.ngc",
-            ["'part.ngc' is a program", "a job file is needed"],
-        ),
+        ("place part.ngc", ["no model is named", "--model MODEL"]),
         (
             "compensate arm.toml",
-            ["'arm.toml' is a model", "--model arm.toml"],
+            ["no program is named", "--program FILE"],
         ),
         (
             "stiffness job.toml",
@@ -360,7 +357,7 @@ fn a_file_of_another_kind_is_called_what_it_is() {
             ["'job.toml' is a job file", "'part.ngc'"],
         ),
         (
-            "convert job.toml --to krl --out o.src",
+            "expand job.toml --out o.ngc",
             ["'job.toml' is a job file", "'part.ngc'"],
         ),
         (
@@ -373,7 +370,7 @@ fn a_file_of_another_kind_is_called_what_it_is() {
         ),
         (
             "engagement arm.toml",
-            ["'arm.toml' is a model", "a job file is needed"],
+            ["'arm.toml' is a model", "a program is needed"],
         ),
     ] {
         let words: Vec<&str> = command.split(' ').collect();
