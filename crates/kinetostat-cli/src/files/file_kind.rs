@@ -17,6 +17,9 @@ const LOOKED_AT: u64 = 1 << 20;
 /// Lines of a program that are looked at.
 const LINES: usize = 100;
 
+/// Keys and tables by which a job is recognised.
+const JOB_KEYS: [&str; 6] = ["program", "model", "placement", "load", "stock", "output"];
+
 /// Kind of a file by its content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FileKind {
@@ -46,7 +49,7 @@ impl FileKind {
             let has = |key: &str| tree.get_ref().keys().any(|k| k.get_ref() == key);
             return match (
                 has("mechanism") || has("platform"),
-                has("program") || has("model"),
+                JOB_KEYS.iter().any(|key| has(key)),
             ) {
                 (true, _) => Some(Self::Model),
                 (false, true) => Some(Self::Job),
@@ -70,8 +73,9 @@ impl FileKind {
 
     /// The kind of a file on disk; `None` of one that cannot be read.
     pub(crate) fn of_file(path: &Path) -> Option<Self> {
-        let is_file = path.is_file() || standard_input::is(path);
-        let bytes = beginning(path).filter(|_| is_file)?;
+        // A pipe can be read only once, and is left to who reads it as a whole.
+        let is_kept = path.is_file() || standard_input::is(path);
+        let bytes = is_kept.then(|| beginning(path)).flatten()?;
         Self::of(path, &bytes)
     }
 

@@ -302,7 +302,7 @@ fn what_is_missing_or_wrong_is_named() {
         ),
         (
             "--job job.toml --program other.ngc".to_owned(),
-            "'other.ngc' and 'slot.ngc' are given, and the command takes one program",
+            "'slot.ngc' and 'other.ngc' are given, and the command takes one program",
         ),
         ("--job none.toml".to_owned(), "'none.toml' does not exist"),
     ] {

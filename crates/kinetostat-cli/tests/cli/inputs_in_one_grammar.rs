@@ -332,7 +332,7 @@ fn standard_input_is_read_once_bounded_and_named() {
             "'standard input' is larger than 1 MB",
         ),
         ("compensate -", "empty", "'standard input' is empty"),
-        ("stiffness -", "wrong.toml", "standard input:13"),
+        ("stiffness -", "wrong.toml", "standard input:14:22"),
         ("stiffness -", "part.ngc", "--program -"),
         ("expand -", "job.toml", "'standard input' is a job file"),
         (
