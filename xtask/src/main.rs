@@ -23,6 +23,7 @@ Tasks of the project
 
   cargo xtask test              format, lints, tests, documentation, book, instruction counts,
                                 the Python package: what CI runs
+  cargo xtask test --quick      format, lints, tests of all crates but the core and the command line
   cargo xtask test --python     the Python package alone
   cargo xtask wheel             the Python package as it is handed out, in target/python/dist
   cargo xtask book              the book as pages in book/book; with --open it is shown
@@ -48,6 +49,7 @@ fn main() -> ExitCode {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let done = match words.as_slice() {
         ["test"] => test::run(),
+        ["test", "--quick"] => test::quick(),
         ["test", "--python"] => python::prepare().and_then(python::check),
         ["book", options @ ..] => book::run(options),
         ["figures", options @ ..] => figures::run(options),

@@ -9,11 +9,20 @@ use crate::{book, cargo, counts, python, step};
 /// `cargo test` takes new ones each time, and `PROPTEST_CASES=20000` many more.
 const RANDOM_SEED: (&str, &str) = ("PROPTEST_RNG_SEED", "20261126");
 
-/// Runs the checks of CI, which the README promises.
-pub fn run() -> Result<()> {
-    // pip waits for the network, and unpacks on one core.
-    let python = std::thread::spawn(python::prepare);
+/// Format, lints, and the tests of all crates but those that take minutes: the core's and the command line's.
+pub fn quick() -> Result<()> {
     step("format", cargo().args(["fmt", "--all", "--check"]))?;
+    lints()?;
+    step(
+        "tests without those of the core and the command line",
+        cargo()
+            .args(["test", "--workspace", "--no-fail-fast", "--tests"])
+            .args(["--exclude", "kinetostat", "--exclude", "kinetostat-cli"])
+            .env(RANDOM_SEED.0, RANDOM_SEED.1),
+    )
+}
+
+fn lints() -> Result<()> {
     step(
         "lints",
         cargo().args([
@@ -25,7 +34,15 @@ pub fn run() -> Result<()> {
             "-D",
             "warnings",
         ]),
-    )?;
+    )
+}
+
+/// Runs the checks of CI, which the README promises.
+pub fn run() -> Result<()> {
+    // pip waits for the network, and unpacks on one core.
+    let python = std::thread::spawn(python::prepare);
+    step("format", cargo().args(["fmt", "--all", "--check"]))?;
+    lints()?;
     step(
         "the core without its features",
         cargo().args([
