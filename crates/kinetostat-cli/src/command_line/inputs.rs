@@ -31,6 +31,9 @@ const OTHER_FILES: [&str; 13] = [
     "uncertain",
 ];
 
+/// Options with as many values as there are: an input behind them is none of their values.
+const OPEN_OPTIONS: [&str; 2] = ["damping", "json"];
+
 /// Inputs that have an option of their own name.
 const INPUTS: [FileKind; 3] = [FileKind::Model, FileKind::Job, FileKind::Program];
 
@@ -118,9 +121,10 @@ impl<'c> Declared<'c> {
         self.positional.contains(&kind) && !self.has_option(kind)
     }
 
-    /// Divides the words behind the command's name into arguments, as clap does.
-    fn parts(&self, words: &[OsString]) -> Vec<Part> {
-        let mut parts = Vec::new();
+    /// Divides the words behind the command's name into arguments, as clap does, but for an input behind one of the
+    /// [`OPEN_OPTIONS`]; true if there is one.
+    fn parts(&self, words: &[OsString]) -> (Vec<Part>, bool) {
+        let (mut parts, mut has_ended_one) = (Vec::new(), false);
         let mut rest = words.iter().peekable();
         while let Some(word) = rest.next() {
             if word == "--" {
@@ -157,20 +161,27 @@ impl<'c> Declared<'c> {
                 None => usize::from(INPUTS.iter().any(is_input)),
             };
             let takes_hyphens = argument.is_some_and(Arg::is_allow_hyphen_values_set);
+            let long = argument.and_then(Arg::get_long);
+            let is_open = long.is_some_and(|long| OPEN_OPTIONS.contains(&long));
+            let is_input = |word: &OsStr| is_open && !is_json(word) && recognised(word).is_some();
             let mut values = Vec::new();
             while values.len() < most
                 && let Some(value) = rest.next_if(|w| takes_hyphens || !is_option(w))
             {
+                if is_input(value) {
+                    has_ended_one = true;
+                    parts.push(Part::positional(value.clone()));
+                    break;
+                }
                 values.push(value.clone());
             }
-            let long = argument.and_then(Arg::get_long);
             parts.push(Part {
                 option: Some(long.map_or_else(|| word.clone(), |long| format!("--{long}").into())),
                 values,
                 is_joined: false,
             });
         }
-        parts
+        (parts, has_ended_one)
     }
 }
 
@@ -193,6 +204,12 @@ fn is_option(word: &OsStr) -> bool {
     text.len() > 1 && text.starts_with('-') && text.parse::<f64>().is_err()
 }
 
+/// True of the name of a result.
+fn is_json(word: &OsStr) -> bool {
+    let ending = Path::new(word).extension();
+    ending.is_some_and(|ending| ending.eq_ignore_ascii_case("json"))
+}
+
 /// Kind of a model, a job or a program; `None` if the word is none of them.
 fn recognised(word: &OsStr) -> Option<FileKind> {
     let kind = match word.to_str() {
@@ -205,6 +222,14 @@ fn recognised(word: &OsStr) -> Option<FileKind> {
 /// The words of the command line with each input where its command declares it.
 pub(crate) fn in_place(command: &Command, words: Vec<OsString>) -> Answer<Vec<OsString>> {
     standard_input::request(false);
+    // Help waits for no input.
+    let help = ["--help", "--help-all", "-h"];
+    if words
+        .iter()
+        .any(|word| help.iter().any(|help| word == help))
+    {
+        return Ok(words);
+    }
     let mut of = command;
     let mut begin = 1;
     while let Some(inner) = words.get(begin).and_then(|word| of.find_subcommand(word)) {
@@ -214,10 +239,10 @@ pub(crate) fn in_place(command: &Command, words: Vec<OsString>) -> Answer<Vec<Os
     let mut of = of.clone();
     of.build();
     let declared = Declared::of(&of);
-    let mut parts = declared.parts(&words[begin.min(words.len())..]);
+    let (mut parts, has_ended_one) = declared.parts(&words[begin.min(words.len())..]);
     let has_standard_input = name_standard_input(&declared, &mut parts)?;
     let has_moved = !declared.positional.is_empty() && rearrange(&declared, &mut parts)?;
-    if !has_standard_input && !has_moved {
+    if !has_standard_input && !has_moved && !has_ended_one {
         return Ok(words);
     }
     let (options, positional): (Vec<Part>, Vec<Part>) =
@@ -295,17 +320,34 @@ fn rearrange(declared: &Declared<'_>, parts: &mut [Part]) -> Answer<bool> {
     let is_unknown = |part: &Part| {
         part.option.is_some() && part.name().and_then(|name| declared.option(name)).is_none()
     };
-    if has_moved && !parts.iter().any(is_unknown) {
-        let mut all: Vec<&str> = declared
-            .positional
-            .iter()
-            .map(|kind| kind.option())
-            .collect();
-        all.dedup();
-        let positional = parts.iter().filter(|part| part.option.is_none());
-        refuse_several(&all.join(" or "), declared.places, positional)?;
+    let positional = || parts.iter().filter(|part| part.option.is_none());
+    let is_too_many = positional().count() > declared.places;
+    if is_too_many && !parts.iter().any(is_unknown) {
+        refuse_missing(positional())?;
+        let mut words = positional().flat_map(|part| &part.values);
+        if has_moved || words.all(|word| recognised(word).is_some()) {
+            let all = declared.positional.iter().map(|kind| kind.option());
+            let mut all: Vec<&str> = all.collect();
+            all.dedup();
+            refuse_several(&all.join(" or "), declared.places, positional())?;
+        }
     }
     Ok(has_moved)
+}
+
+/// Refuses the path of an input where there is no file.
+fn refuse_missing<'p>(mut given: impl Iterator<Item = &'p Part>) -> Answer<()> {
+    let is_missing = |word: &&OsString| {
+        let is_path = word.to_string_lossy().contains(['.', '/', '\\']);
+        let is_number = word.to_string_lossy().parse::<f64>().is_ok();
+        is_path && !is_number && recognised(word).is_none() && !Path::new(word).exists()
+    };
+    match given.find_map(|part| part.values.iter().find(is_missing)) {
+        Some(word) => {
+            Err(ErrorCode::FileNotRead.failure(format!("'{}' does not exist", word.display())))
+        }
+        None => Ok(()),
+    }
 }
 
 fn refuse_several<'p>(
@@ -316,9 +358,10 @@ fn refuse_several<'p>(
     let quoted = given.flat_map(|part| &part.values);
     let number = if most == 1 { "one" } else { "two" };
     let quoted: Vec<String> = quoted.map(|word| format!("'{}'", word.display())).collect();
+    let plural = if most == 1 { "" } else { "s" };
     match quoted.len() > most {
         true => Err(ErrorCode::Conflict.failure(format!(
-            "{} are given, and the command takes {number} {what}: leave the others out",
+            "{} are given, and the command takes {number} {what}{plural}: leave the others out",
             quoted.join(" and ")
         ))),
         false => Ok(()),

@@ -56,9 +56,14 @@ impl FileKind {
                 (false, false) => None,
             };
         }
+        let is_toml = name.to_ascii_lowercase().ends_with(".toml");
+        if (is_toml || standard_input::is(path))
+            && let Some(kind) = of_tables(&text)
+        {
+            return Some(kind);
+        }
         let mut lines = text.lines();
         let columns = lines.find(|line| !line.trim().is_empty()).and_then(columns);
-        let is_toml = name.to_ascii_lowercase().ends_with(".toml");
         let is_program = language_of(&name, bytes).is_some()
             || odd_program(&name, bytes).is_some()
             || text.lines().take(LINES).any(is_block);
@@ -151,6 +156,23 @@ fn is_block(line: &str) -> bool {
             .is_some_and(|c| c.is_ascii_digit() || matches!(c, '-' | '.'))
 }
 
+/// Kind of a TOML file with a fault in its syntax, by the names of its tables and keys.
+fn of_tables(text: &str) -> Option<FileKind> {
+    let name = |line: &str| {
+        let line = line.trim_start_matches(['[', ' ']);
+        let end = line.find(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        line[..end.unwrap_or(line.len())].to_owned()
+    };
+    let is_entry = |line: &&str| line.starts_with('[') || line.contains('=');
+    let names = text.lines().map(str::trim_start).filter(is_entry).map(name);
+    let names: Vec<String> = names.collect();
+    let has = |key: &str| names.iter().any(|name| name == key);
+    match has("mechanism") || has("platform") {
+        true => Some(FileKind::Model),
+        false => JOB_KEYS.iter().any(|key| has(key)).then_some(FileKind::Job),
+    }
+}
+
 /// True of a text in XML.
 pub(crate) fn is_xml(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
@@ -180,7 +202,12 @@ fn are_poses(names: &[String]) -> bool {
 
 /// Refuses a file of another kind than the one that is needed.
 pub(crate) fn refuse_other_kind(path: &Path, bytes: &[u8], needed: FileKind) -> Answer<()> {
-    let Some(kind) = FileKind::of(path, bytes).filter(|kind| *kind != needed) else {
+    // Poses and points in a table are a program where one is needed.
+    let fits = |kind: FileKind| {
+        let is_table = matches!(kind, FileKind::Table | FileKind::Parquet);
+        kind == needed || is_table && needed == FileKind::Program
+    };
+    let Some(kind) = FileKind::of(path, bytes).filter(|kind| !fits(*kind)) else {
         return Ok(());
     };
     let text = String::from_utf8_lossy(bytes);

@@ -355,3 +355,91 @@ fn standard_input_is_read_once_bounded_and_named() {
     let said = run(here, &["check", "standard input"]);
     assert_eq!(said.code, 1, "{said:?}");
 }
+
+#[test]
+fn an_input_behind_an_open_option_is_no_value_of_it() {
+    let here = place();
+    let here = here.path();
+    let said = |line: &str| {
+        run(here, &line.split(' ').collect::<Vec<_>>())
+            .answered()
+            .out
+    };
+    assert_eq!(
+        said("stiffness --at 0 0 0 --json orthoglide.toml"),
+        said("stiffness orthoglide.toml --at 0 0 0 --json"),
+    );
+    let model = std::fs::read(here.join("orthoglide.toml")).expect("the model");
+    assert_eq!(
+        said("deflect --at 0 0 0 --force 1 0 0 --force-overwrite --json orthoglide.toml"),
+        said("deflect orthoglide.toml --at 0 0 0 --force 1 0 0 --json -"),
+    );
+    let left = std::fs::read(here.join("orthoglide.toml")).expect("the model");
+    assert!(model == left, "an input was overwritten");
+    assert_eq!(
+        said("frf --frequencies 5 80 20 --damping 0.03 heavy.toml"),
+        said("frf heavy.toml --frequencies 5 80 20 --damping 0.03"),
+    );
+}
+
+#[test]
+fn what_is_too_many_or_missing_is_named() {
+    let here = place();
+    let here = here.path();
+    let job = std::fs::read_to_string(here.join("job.toml")).expect("the job");
+    let wrong = job.replace("schema = 1", "schema = 1,5");
+    std::fs::write(here.join("wrong.toml"), wrong).expect("a job");
+    for (line, code, needle) in [
+        (
+            "stiffness chain.toml orthoglide.toml",
+            "conflict",
+            "takes one model",
+        ),
+        ("expand part.ngc part.ngc", "conflict", "takes one program"),
+        (
+            "deflect nosuch.ngc orthoglide.toml",
+            "file_not_read",
+            "'nosuch.ngc' does not exist",
+        ),
+        (
+            "deflect orthoglide.toml nosuch.ngc",
+            "file_not_read",
+            "'nosuch.ngc' does not exist",
+        ),
+        ("engagement wrong.toml", "job_file", "wrong.toml:"),
+        ("verify part.ngc wrong.toml", "job_file", "wrong.toml:"),
+    ] {
+        let mut words: Vec<&str> = line.split(' ').collect();
+        words.push("--json");
+        let said = run(here, &words);
+        let report: Value = serde_json::from_str(&said.out).expect(line);
+        let text = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(report["errors"][0]["code"], code, "{line}: {text}");
+        assert!(text.contains(needle), "{line}: {text}");
+    }
+    // Points in a table come from standard input as well.
+    let points = "line,axis,error_mm\n3,x,0.1\n";
+    std::fs::write(here.join("points.csv"), points).expect("points");
+    let line = [
+        "mirror",
+        "part.ngc",
+        "--measured",
+        "-",
+        "--register",
+        "none",
+        "--out",
+        "n.ngc",
+    ];
+    let piped = fed(here, &line, "points.csv");
+    let named = run(
+        here,
+        &line.map(|word| if word == "-" { "points.csv" } else { word }),
+    );
+    assert_eq!(piped.code, named.code, "{piped:?}");
+    let kind = "and a program is needed";
+    assert_eq!(
+        piped.err.contains(kind),
+        named.err.contains(kind),
+        "{piped:?}"
+    );
+}

@@ -6,9 +6,9 @@ use crate::error::ProgramError;
 use crate::model::Language;
 use crate::model::external::moving_axis;
 use crate::model::motion::{Frame, Motion, MotionKind};
-use crate::model::parsed::outside_calls as named_calls;
 use crate::model::program::{
-    OutsideCall, RanStatement, RobotProgram, StatedAxes, by_name, stated_to_move,
+    OutsideCall, RanStatement, RobotProgram, StatedAxes, outside_calls as named_calls,
+    stated_to_move,
 };
 use crate::model::site::Declaration;
 use crate::model::stated_value::SlashBlocks;
@@ -184,16 +184,6 @@ pub(crate) fn stays_as_written(cycle: &str) -> String {
     format!(
         "{cycle} stays as it is written: its way is the control's own, and not corrected; the tool stands over the corrected place"
     )
-}
-
-/// Findings on calls that no file defines: each name once, with its lines and the assumption.
-pub(crate) fn outside_calls(language: Language, calls: &[OutsideCall]) -> Vec<Finding> {
-    let all = by_name(calls).into_iter().map(|of| Finding {
-        file: of.file,
-        line: of.line(),
-        message: of.message(language, None),
-    });
-    all.collect()
 }
 
 /// Motions of a file to which its run does not come, by their lines; none where there are none.

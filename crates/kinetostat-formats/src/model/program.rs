@@ -6,7 +6,6 @@ use std::ops::Range;
 use crate::error::ProgramError;
 use crate::model::Language;
 use crate::model::motion::Motion;
-use crate::model::parsed::outside_calls;
 use crate::model::site::Declaration;
 use crate::model::stated_value::StatedValue;
 use crate::text::number::in_words;
@@ -166,6 +165,16 @@ pub(crate) struct CallsOfOne<'c> {
     pub file: usize,
     pub name: Option<&'c str>,
     pub lines: Vec<usize>,
+}
+
+/// Findings on calls that no file defines: each name once, with its lines and the assumption.
+pub(crate) fn outside_calls(language: Language, calls: &[OutsideCall]) -> Vec<Finding> {
+    let all = by_name(calls).into_iter().map(|of| Finding {
+        file: of.file,
+        line: of.line(),
+        message: of.message(language, None),
+    });
+    all.collect()
 }
 
 /// Calls by file and name, in the order of the first ones.

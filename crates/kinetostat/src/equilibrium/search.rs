@@ -42,6 +42,10 @@ pub(crate) trait Searched {
     fn same(&self, known: &Self::Known, candidate: &Self::Candidate) -> bool;
     /// A candidate was recognised as this one.
     fn recognised(&self, _known: &mut Self::Known, _candidate: &Self::Candidate) {}
+    /// True if a candidate that is known stands for it from now on.
+    fn prefers(&self, _candidate: &Self::Candidate, _known: &Self::Known) -> bool {
+        false
+    }
     /// Everything about a new equilibrium; `None` if it does not count.
     fn described(&mut self, candidate: Self::Candidate) -> Option<Self::Known>;
 
@@ -207,6 +211,11 @@ impl<S: Searched> EquilibriumSearch<'_, S> {
             if self.system.same(&entry.known, &candidate) {
                 entry.hits += usize::from(counted);
                 self.system.recognised(&mut entry.known, &candidate);
+                if self.system.prefers(&candidate, &entry.known)
+                    && let Some(known) = self.system.described(candidate)
+                {
+                    entry.known = known;
+                }
                 return true;
             }
         }
