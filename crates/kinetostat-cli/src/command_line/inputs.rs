@@ -163,7 +163,11 @@ impl<'c> Declared<'c> {
             let takes_hyphens = argument.is_some_and(Arg::is_allow_hyphen_values_set);
             let long = argument.and_then(Arg::get_long);
             let is_open = long.is_some_and(|long| OPEN_OPTIONS.contains(&long));
-            let is_input = |word: &OsStr| is_open && !is_json(word) && recognised(word).is_some();
+            // A word that stands twice is an input and, here, an output, which is refused with that reason.
+            let is_once = |word: &OsStr| words.iter().filter(|other| *other == word).count() == 1;
+            let is_input = |word: &OsStr| {
+                is_open && !is_json(word) && is_once(word) && recognised(word).is_some()
+            };
             let mut values = Vec::new();
             while values.len() < most
                 && let Some(value) = rest.next_if(|w| takes_hyphens || !is_option(w))

@@ -42,8 +42,12 @@ impl FileKind {
         let name = path.file_name()?.to_string_lossy();
         let text = String::from_utf8_lossy(bytes);
         if is_xml(bytes) {
-            let is_robot = text.contains("<robot");
-            return Some(if is_robot { Self::Urdf } else { Self::Xml });
+            // Programs of VAL3 are XML as well.
+            return Some(match language_of(&name, bytes) {
+                Some(_) => Self::Program,
+                None if text.contains("<robot") => Self::Urdf,
+                None => Self::Xml,
+            });
         }
         if let Ok(tree) = DeTable::parse(&text) {
             let has = |key: &str| tree.get_ref().keys().any(|k| k.get_ref() == key);

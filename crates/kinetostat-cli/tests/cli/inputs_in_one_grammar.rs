@@ -395,7 +395,7 @@ fn what_is_too_many_or_missing_is_named() {
             "conflict",
             "takes one model",
         ),
-        ("expand part.ngc part.ngc", "conflict", "takes one program"),
+        ("verify part.ngc part.ngc", "conflict", "takes one program"),
         (
             "deflect nosuch.ngc orthoglide.toml",
             "file_not_read",
