@@ -11,8 +11,7 @@ const RANDOM_SEED: (&str, &str) = ("PROPTEST_RNG_SEED", "20261126");
 
 /// Format, lints, and the tests of all crates but those that take minutes: the core's and the command line's.
 pub fn quick() -> Result<()> {
-    step("format", cargo().args(["fmt", "--all", "--check"]))?;
-    lints()?;
+    format_and_lints()?;
     step(
         "tests without those of the core and the command line",
         cargo()
@@ -22,7 +21,8 @@ pub fn quick() -> Result<()> {
     )
 }
 
-fn lints() -> Result<()> {
+fn format_and_lints() -> Result<()> {
+    step("format", cargo().args(["fmt", "--all", "--check"]))?;
     step(
         "lints",
         cargo().args([
@@ -41,8 +41,7 @@ fn lints() -> Result<()> {
 pub fn run() -> Result<()> {
     // pip waits for the network, and unpacks on one core.
     let python = std::thread::spawn(python::prepare);
-    step("format", cargo().args(["fmt", "--all", "--check"]))?;
-    lints()?;
+    format_and_lints()?;
     step(
         "the core without its features",
         cargo().args([

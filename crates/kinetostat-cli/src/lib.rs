@@ -153,11 +153,12 @@ fn answer(words: impl Iterator<Item = OsString>, begin: impl FnOnce()) -> u8 {
     if let Some(what) = no_number(&words) {
         return refused(&ErrorCode::Value.failure(what), asks_for_json);
     }
-    let words = match inputs::in_place(&Cli::command(), words) {
+    let command = Cli::command();
+    let words = match inputs::in_place(&command, words) {
         Ok(words) => words,
         Err(failure) => return refused(&failure, asks_for_json),
     };
-    let (cli, given) = match parsed(words) {
+    let (cli, given) = match parsed(command, words) {
         Ok(parsed) => parsed,
         Err(error) => {
             screen::complain_of_line(&error);
@@ -200,8 +201,8 @@ fn refused(failure: &Failure, as_json: bool) -> u8 {
 }
 
 /// The command of a line, and the options that it gives.
-fn parsed(words: Vec<OsString>) -> Result<(Cli, Given), clap::Error> {
-    let mut command = with_spellings(Cli::command());
+fn parsed(command: clap::Command, words: Vec<OsString>) -> Result<(Cli, Given), clap::Error> {
+    let mut command = with_spellings(command);
     if words.iter().any(|word| word == "-h") {
         command = with_short_help(command);
     }

@@ -35,13 +35,13 @@ impl Source<'_> {
     }
 }
 
-/// What a text in TOML is about, for faults of the reader.
+/// Names of a text in TOML and of its entries, for faults of the reader.
 pub(crate) struct Subject {
     /// One entry of it.
     pub(crate) entry: &'static str,
     /// The whole of it.
     pub(crate) whole: &'static str,
-    /// How it is written.
+    /// Its form in words.
     pub(crate) form: &'static str,
 }
 
@@ -55,15 +55,15 @@ impl Source<'_> {
         match fault.kind {
             TomlFaultKind::UnknownKey { given, known }
             | TomlFaultKind::UnknownWord { given, known } => {
-                let near = nearest_key(&given, &known);
-                let expected = match near {
-                    Some(near) => format!("did you mean `{near}`?"),
-                    None => format!("one of {}", known.join(", ")),
-                };
                 let key = format!("key of a {}", subject.entry);
-                CutError {
-                    is_suggestion: near.is_some(),
-                    ..said(&key, format!("`{given}` is not known here"), expected)
+                let found = format!("`{given}` is not known here");
+                match nearest_key(&given, &known) {
+                    Some(near) => {
+                        let near = format!("`{near}`");
+                        CutError::suggesting(CutErrorKind::File, key, found, &[&near])
+                            .at(self.file, Some(self.line(fault.span.start)))
+                    }
+                    None => said(&key, found, format!("one of {}", known.join(", "))),
                 }
             }
             TomlFaultKind::MissingKey(key) => {

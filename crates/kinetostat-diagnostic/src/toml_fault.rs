@@ -57,9 +57,9 @@ pub enum TomlFaultKind {
     },
     /// A value, or a sign of the text, is not of the kind that is needed here. Both are named as a person would.
     Mismatch {
-        /// What is there.
+        /// The value or sign that is there.
         found: String,
-        /// What is needed.
+        /// The kind that is needed.
         expected: String,
     },
     /// The table has the key already.

@@ -31,7 +31,7 @@ const OTHER_FILES: [&str; 13] = [
     "uncertain",
 ];
 
-/// Options with as many values as there are: an input behind them is none of their values.
+/// Options whose number of values is open: an input behind them ends their values.
 const OPEN_OPTIONS: [&str; 2] = ["damping", "json"];
 
 /// Inputs that have an option of their own name.
@@ -153,12 +153,12 @@ impl<'c> Declared<'c> {
                     self.command.get_arguments().find(is_short)
                 }
             };
-            let is_input = |kind: &FileKind| {
+            let names_input = |kind: &FileKind| {
                 self.is_only_positional(*kind) && text == format!("--{}", kind.option())
             };
             let most = match argument {
                 Some(argument) => argument.get_num_args().map_or(0, |n| n.max_values()),
-                None => usize::from(INPUTS.iter().any(is_input)),
+                None => usize::from(INPUTS.iter().any(names_input)),
             };
             let takes_hyphens = argument.is_some_and(Arg::is_allow_hyphen_values_set);
             let long = argument.and_then(Arg::get_long);
@@ -214,7 +214,7 @@ fn is_json(word: &OsStr) -> bool {
     ending.is_some_and(|ending| ending.eq_ignore_ascii_case("json"))
 }
 
-/// Kind of a model, a job or a program; `None` if the word is none of them.
+/// Kind of a model, a job or a program; `None` for any other word.
 fn recognised(word: &OsStr) -> Option<FileKind> {
     let kind = match word.to_str() {
         Some(name) if kinetostat_model::preset_text(name).is_some() => Some(FileKind::Model),
@@ -227,11 +227,7 @@ fn recognised(word: &OsStr) -> Option<FileKind> {
 pub(crate) fn in_place(command: &Command, words: Vec<OsString>) -> Answer<Vec<OsString>> {
     standard_input::request(false);
     // Help waits for no input.
-    let help = ["--help", "--help-all", "-h"];
-    if words
-        .iter()
-        .any(|word| help.iter().any(|help| word == help))
-    {
+    if words.iter().any(|word| word == "-h" || word == "--help") {
         return Ok(words);
     }
     let mut of = command;
@@ -304,17 +300,18 @@ fn rearrange(declared: &Declared<'_>, parts: &mut [Part]) -> Answer<bool> {
         .iter_mut()
         .filter(|p| has_options && p.option.is_none())
     {
+        // A lone file of another kind is left where it is needed: the command says what it is.
+        if given <= declared.places && declared.is_required {
+            break;
+        }
         let kind = part.values.first().and_then(|word| recognised(word));
         let Some(kind) = kind.filter(|kind| declared.has_option(*kind)) else {
             continue;
         };
-        // A lone file of another kind is left where it is needed: the command says what it is.
-        if given > declared.places || !declared.is_required {
-            part.option = Some(format!("--{}", kind.option()).into());
-            part.is_joined = true;
-            given -= 1;
-            has_moved = true;
-        }
+        part.option = Some(format!("--{}", kind.option()).into());
+        part.is_joined = true;
+        given -= 1;
+        has_moved = true;
     }
     for kind in INPUTS {
         let named = parts.iter().filter(|p| p.name() == Some(kind.option()));

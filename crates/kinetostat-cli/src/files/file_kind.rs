@@ -50,19 +50,12 @@ impl FileKind {
             });
         }
         if let Ok(tree) = DeTable::parse(&text) {
-            let has = |key: &str| tree.get_ref().keys().any(|k| k.get_ref() == key);
-            return match (
-                has("mechanism") || has("platform"),
-                JOB_KEYS.iter().any(|key| has(key)),
-            ) {
-                (true, _) => Some(Self::Model),
-                (false, true) => Some(Self::Job),
-                (false, false) => None,
-            };
+            let keys = tree.get_ref().keys();
+            return Self::of_keys(&keys.map(|key| &**key.get_ref()).collect::<Vec<_>>());
         }
         let is_toml = name.to_ascii_lowercase().ends_with(".toml");
         if (is_toml || standard_input::is(path))
-            && let Some(kind) = of_tables(&text)
+            && let Some(kind) = Self::of_keys(&keys_of_faulty(&text))
         {
             return Some(kind);
         }
@@ -77,6 +70,15 @@ impl FileKind {
             _ if is_program => Some(Self::Program),
             Some(_) => Some(Self::Table),
             None => bytes.starts_with(b"PAR1").then_some(Self::Parquet),
+        }
+    }
+
+    /// The kind of a TOML file by its keys and tables.
+    fn of_keys(keys: &[&str]) -> Option<Self> {
+        let has = |key: &&str| keys.contains(key);
+        match has(&"mechanism") || has(&"platform") {
+            true => Some(Self::Model),
+            false => JOB_KEYS.iter().any(has).then_some(Self::Job),
         }
     }
 
@@ -100,7 +102,7 @@ impl FileKind {
         }
     }
 
-    /// Name of the option for an input of this kind; empty if there is none.
+    /// Name of the option for an input of this kind; empty for a kind without an option.
     pub(crate) fn option(self) -> &'static str {
         match self {
             Self::Job => "job",
@@ -160,21 +162,16 @@ fn is_block(line: &str) -> bool {
             .is_some_and(|c| c.is_ascii_digit() || matches!(c, '-' | '.'))
 }
 
-/// Kind of a TOML file with a fault in its syntax, by the names of its tables and keys.
-fn of_tables(text: &str) -> Option<FileKind> {
-    let name = |line: &str| {
+/// Names of the tables and keys of a TOML file with a fault in its syntax.
+fn keys_of_faulty(text: &str) -> Vec<&str> {
+    let lines = text.lines().map(str::trim_start);
+    let entries = lines.filter(|line| line.starts_with('[') || line.contains('='));
+    let names = entries.map(|line| {
         let line = line.trim_start_matches(['[', ' ']);
         let end = line.find(|c: char| !c.is_ascii_alphanumeric() && c != '_');
-        line[..end.unwrap_or(line.len())].to_owned()
-    };
-    let is_entry = |line: &&str| line.starts_with('[') || line.contains('=');
-    let names = text.lines().map(str::trim_start).filter(is_entry).map(name);
-    let names: Vec<String> = names.collect();
-    let has = |key: &str| names.iter().any(|name| name == key);
-    match has("mechanism") || has("platform") {
-        true => Some(FileKind::Model),
-        false => JOB_KEYS.iter().any(|key| has(key)).then_some(FileKind::Job),
-    }
+        end.map_or(line, |end| &line[..end])
+    });
+    names.collect()
 }
 
 /// True of a text in XML.

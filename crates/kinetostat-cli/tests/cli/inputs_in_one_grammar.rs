@@ -121,12 +121,7 @@ fn words<'a>(line: &'a str, input: &[&'a str]) -> Vec<&'a str> {
 fn fed(here: &Path, words: &[&str], file: &str) -> Said {
     let input = File::open(here.join(file)).expect("an input");
     let output = command(here).args(words).stdin(input).output();
-    let output = output.expect("the command starts");
-    Said {
-        code: output.status.code().unwrap_or(-1),
-        out: String::from_utf8_lossy(&output.stdout).into_owned(),
-        err: String::from_utf8_lossy(&output.stderr).into_owned(),
-    }
+    Said::of(output.expect("the command starts"))
 }
 
 #[test]
@@ -283,7 +278,7 @@ fn a_file_of_another_kind_is_named_with_the_command_that_takes_it() {
             ("binary", ["binary", "text"]),
             (".", ["directory", "name"]),
         ] {
-            // As a program, a table is read, and its columns are refused one by one.
+            // `expand` reads a table as a program, and refuses its columns one by one.
             if command == "expand" && ["table.csv", "columns.bin"].contains(&file) {
                 continue;
             }

@@ -351,9 +351,9 @@ impl<'p, 'a, 'b> ChainSearch<'p, 'a, 'b> {
     }
 
     /// Held in more directions than it can move in, a chain carries any force along the others: one shape.
-    fn is_locked_as(&self, k: &Known, candidate: &Candidate) -> bool {
-        let d = wrapped(&candidate.c.z, &k.z, &self.scaled_turns());
-        let coordinates = d.rows(self.system.reactions(), candidate.idle.len());
+    /// `d`: the difference of two states, without full turns.
+    fn is_locked_as(&self, k: &Known, d: &DVector<f64>) -> bool {
+        let coordinates = d.rows(self.system.reactions(), self.system.coordinates_count());
         k.least < SINGULAR && coordinates.norm() <= LOCKED
     }
 
@@ -441,14 +441,15 @@ impl Searched for ChainSearch<'_, '_, '_> {
         let degenerate = k.least < SINGULAR
             && d.rows(0, offset).norm() <= 1e-6 * (1.0 + k.z.rows(0, offset).norm());
         let member = alike && (moves || degenerate);
-        d.norm() <= near || member || self.is_locked_as(k, candidate)
+        d.norm() <= near || member || self.is_locked_as(k, &d)
     }
 
     /// A locked chain is listed with the least of the forces that it may carry.
     fn prefers(&self, candidate: &Candidate, k: &Known) -> bool {
         let offset = self.system.reactions();
         let reaction = |z: &DVector<f64>| z.rows(0, offset).norm();
-        self.is_locked_as(k, candidate) && reaction(&candidate.c.z) < 0.9 * reaction(&k.z)
+        let d = wrapped(&candidate.c.z, &k.z, &self.scaled_turns());
+        self.is_locked_as(k, &d) && reaction(&candidate.c.z) < 0.9 * reaction(&k.z)
     }
 
     fn described(&mut self, candidate: Candidate) -> Option<Known> {

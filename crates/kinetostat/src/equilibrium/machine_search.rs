@@ -179,11 +179,9 @@ impl<'p> MachineSearch<'p> {
         let few = SearchSettings::default().with_fruitless(SHAPE_STARTS);
         let probe = few.with_starts(PROBES).with_most(1);
         let reached = |limb: &Equilibria| limb.outside > 0 || !limb.found.is_empty();
-        let shapes = match limb_shapes(posture, place, &probe) {
-            Ok(limbs) if limbs.iter().all(reached) => limb_shapes(posture, place, &few),
-            _ => return Vec::new(),
-        };
-        let Ok(shapes) = shapes else {
+        let probed = limb_shapes(posture, place, &probe).ok();
+        let probed = probed.filter(|limbs| limbs.iter().all(reached));
+        let Some(shapes) = probed.and_then(|_| limb_shapes(posture, place, &few).ok()) else {
             return Vec::new();
         };
         let list = combinations(&shapes).into_iter().take(COMBINATIONS);
