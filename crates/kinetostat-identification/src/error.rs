@@ -1,0 +1,65 @@
+//! Errors of an identification.
+
+use kinetostat_model::ModelError;
+
+/// Reason why there is no identification.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum IdentificationError {
+    /// The model refuses a number.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The machine has no equilibrium in a posture.
+    #[error("posture '{posture}': {reason}")]
+    Posture {
+        /// Name of the posture.
+        posture: String,
+        /// What the machine says.
+        reason: kinetostat::Error,
+    },
+    /// A pattern that names nothing.
+    #[error("no number of the model is called '{pattern}'; numbers that deflections show are, for instance, {}", examples.join(", "))]
+    NoNumber {
+        /// The pattern.
+        pattern: String,
+        /// Some that exist.
+        examples: Vec<String>,
+    },
+    /// A number that is not identified from deflections.
+    #[error(
+        "'{path}' is a {kind} and cannot be identified from deflections; stiffnesses, moduli, lengths, angles and masses can"
+    )]
+    NotIdentified {
+        /// Path of the number.
+        path: String,
+        /// Kind of the quantity.
+        kind: &'static str,
+    },
+    /// Readings of the tool need a tangent that has a solution.
+    #[error("posture '{posture}': a motion that nothing holds lies along the load or a reading")]
+    Free {
+        /// Name of the posture.
+        posture: String,
+    },
+    /// No progress.
+    #[error(
+        "the fit did not settle after {steps} steps: the last one still changed a number by {change:.1e} of its size; look for a posture whose load or joints are wrong, or start from a model that is nearer"
+    )]
+    NotConverged {
+        /// Steps made.
+        steps: usize,
+        /// Last change, relative.
+        change: f64,
+    },
+    /// A number of geometry or loads, which small loads do not show.
+    #[error(
+        "'{path}' is no spring: it changes a deflection only through loaded equilibria; leave out the restriction to small loads"
+    )]
+    NeedsLoads {
+        /// Path of the number.
+        path: String,
+    },
+    /// Nothing to fit.
+    #[error("there are no readings")]
+    NoReadings,
+}

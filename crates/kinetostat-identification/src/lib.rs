@@ -1,0 +1,35 @@
+//! The stiffness of a robot from measured deflections.
+//!
+//! A model is as good as its numbers, and nobody has the stiffness of his robot. With a weight on a string and a dial gauge, or a
+//! laser tracker, it is measured in a morning. This crate holds the numbers of a model against such readings.
+//!
+//! ```text
+//! unknown        which numbers of the model, as compliances
+//! experiment     postures, loads, readings
+//! prediction     what the machine would show, and its derivatives
+//! least_squares  weighted least squares by postures
+//! fit            Gauss-Newton over both
+//! ```
+
+mod axes;
+mod error;
+mod experiment;
+mod fit;
+mod identifiability;
+mod least_squares;
+mod prediction;
+mod table;
+mod unknown;
+
+pub use axes::Axes;
+pub use error::IdentificationError;
+pub use experiment::{Observation, Reading, ReadingOf, TestLoad};
+pub use fit::{Fit, FitOptions, identify};
+pub use identifiability::{Combination, Identifiability, Knowledge, WEAK};
+pub use least_squares::{HUBER, LinearFit, PostureRows, UNSEEN, fit as least_squares};
+pub use prediction::{Prediction, Theory, predict};
+pub use table::{
+    COLUMNS, DEVIATION, MOST_FAULTS, MeasuredRow, Read, TURN_DEVIATION, TableFault, observations,
+    read_table,
+};
+pub use unknown::{Form, Unknown, Unknowns};

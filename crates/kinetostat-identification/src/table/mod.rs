@@ -1,0 +1,175 @@
+//! Tables of measurements: one row for each marker that was read in a posture under a load.
+//!
+//! The header names quantity and unit (`A1_deg`, `fz_n`, `dx_um`). Cells are separated by commas, semicolons or tabs; with
+//! semicolons or tabs the decimal sign may be a comma. All faults of a file are found in one run, each with row and column.
+
+mod columns;
+mod read;
+
+use nalgebra::Vector3;
+
+use crate::experiment::{Observation, Reading, ReadingOf, TestLoad};
+
+pub use columns::COLUMNS;
+pub use read::read_table;
+
+/// A fault of a table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TableFault {
+    /// Line of the file, from 1.
+    pub line: usize,
+    /// Column by its name in the header, where one is at fault.
+    pub column: Option<String>,
+    /// What stands there.
+    pub found: Option<String>,
+    /// What is wrong, and what is needed.
+    pub message: String,
+}
+
+/// Most faults that are listed; a file of another kind has one in every cell.
+pub const MOST_FAULTS: usize = 50;
+
+/// What a row says of the tool.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Read {
+    /// Displacement by the load, m, base axes.
+    pub displacement: Option<Vector3<f64>>,
+    /// Place of the marker, m, base axes.
+    pub position: Option<Vector3<f64>>,
+    /// Turn by the load as a rotation vector, rad, base axes.
+    pub turn: Option<Vector3<f64>>,
+    /// Displacement along the stylus of a gauge, m, and the direction in which it counts up (base axes).
+    pub gauge: Option<(f64, Vector3<f64>)>,
+}
+
+/// A row of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredRow {
+    /// Line of the file, from 1.
+    pub line: usize,
+    /// Name of the posture; its axes where the table does not name it.
+    pub posture: String,
+    /// Axes as they were shown, m or rad.
+    pub shown: Vec<f64>,
+    /// Commands of the actuators, m or rad.
+    pub commands: Vec<f64>,
+    /// Force and moment on the tool, base axes, and where the force acts.
+    pub load: TestLoad,
+    /// Mass that hangs at the same point, kg.
+    pub mass: f64,
+    /// Place of the marker in the tool's frame, m.
+    pub marker: Vector3<f64>,
+    /// What was read.
+    pub read: Read,
+    /// Standard deviation of lengths, m.
+    pub deviation: Option<f64>,
+    /// Standard deviation of turns, rad.
+    pub turn_deviation: Option<f64>,
+}
+
+/// Standard deviation of lengths where neither the table nor the caller states one, m: a good dial gauge or a laser tracker.
+pub const DEVIATION: f64 = 20e-6;
+/// Standard deviation of turns where none is stated, rad.
+pub const TURN_DEVIATION: f64 = 20e-6;
+
+impl MeasuredRow {
+    fn load_under(&self, gravity: &Vector3<f64>) -> TestLoad {
+        TestLoad {
+            force: self.load.force + gravity * self.mass,
+            ..self.load
+        }
+    }
+
+    fn is_loaded(&self) -> bool {
+        self.load.force != Vector3::zeros()
+            || self.load.moment != Vector3::zeros()
+            || self.mass != 0.0
+    }
+}
+
+/// Observations from rows: displacements as they are, and positions under a load less the mean of those of the same marker in the
+/// same posture without one. `gravity` (m/s^2, base axes) pulls at the masses.
+///
+/// # Errors
+/// A loaded position without an unloaded one; displacements without a load.
+pub fn observations(
+    rows: &[MeasuredRow],
+    gravity: &Vector3<f64>,
+) -> Result<Vec<Observation>, Vec<TableFault>> {
+    let mut faults = Vec::new();
+    let mut found = Vec::new();
+    for row in rows {
+        let fault = |message: &str| TableFault {
+            line: row.line,
+            column: None,
+            found: None,
+            message: message.to_owned(),
+        };
+        let differs =
+            row.read.displacement.is_some() || row.read.turn.is_some() || row.read.gauge.is_some();
+        if !row.is_loaded() {
+            if differs {
+                faults.push(fault("a displacement without a load: all loads of this row are zero; give the load under which it was read, or positions (x_mm, y_mm, z_mm) of the unloaded tool"));
+            }
+            continue;
+        }
+        let deviation = row.deviation.unwrap_or(DEVIATION);
+        let mut readings = Vec::new();
+        if let Some(d) = &row.read.displacement {
+            readings.extend(Reading::displacement(row.marker, d, deviation));
+        }
+        if let Some(turn) = &row.read.turn {
+            readings.extend(Reading::turn(
+                turn,
+                row.turn_deviation.unwrap_or(TURN_DEVIATION),
+            ));
+        }
+        if let Some((value, direction)) = row.read.gauge {
+            readings.push(Reading {
+                of: ReadingOf::Along(direction),
+                marker: row.marker,
+                value,
+                deviation,
+            });
+        }
+        if let Some(position) = &row.read.position {
+            let unloaded: Vec<&Vector3<f64>> = rows
+                .iter()
+                .filter(|other| {
+                    !other.is_loaded() && other.posture == row.posture && other.marker == row.marker
+                })
+                .filter_map(|other| other.read.position.as_ref())
+                .collect();
+            match unloaded.len() {
+                0 => faults.push(fault("a position under a load, but none of the same marker in the same posture without one: add the unloaded reading (loads of zero), before and after the loaded one if you can")),
+                count => {
+                    let mean = unloaded.iter().copied().sum::<Vector3<f64>>() / count as f64;
+                    // The unloaded mean has an error of its own.
+                    let both = deviation * (1.0 + 1.0 / count as f64).sqrt();
+                    readings.extend(Reading::displacement(row.marker, &(position - mean), both));
+                }
+            }
+        }
+        found.push(Observation {
+            posture: row.posture.clone(),
+            commands: row.commands.clone(),
+            load: row.load_under(gravity),
+            readings,
+        });
+    }
+    if found.is_empty() && faults.is_empty() {
+        faults.push(TableFault {
+            line: 1,
+            column: None,
+            found: None,
+            message: "no row has a load: nothing shows how stiff the machine is".to_owned(),
+        });
+    }
+    match faults.is_empty() {
+        true => Ok(found),
+        false => {
+            faults.truncate(MOST_FAULTS);
+            Err(faults)
+        }
+    }
+}

@@ -1,0 +1,364 @@
+//! Reads a table of measurements.
+
+use nalgebra::Vector3;
+
+use crate::axes::Axes;
+use crate::experiment::TestLoad;
+use crate::table::columns::{Column, NoColumn, column_of};
+use crate::table::{MOST_FAULTS, MeasuredRow, Read, TableFault};
+
+/// Rows of a table, whose columns [`crate::COLUMNS`] lists.
+///
+/// # Errors
+/// All faults, in the order of the file: columns that are unknown, missing, twice or without a unit; cells that are no numbers; rows of
+/// another length; axes beyond their limits.
+pub fn read_table(text: &str, axes: &Axes<'_>) -> Result<Vec<MeasuredRow>, Vec<TableFault>> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut lines = (1..)
+        .zip(text.lines())
+        .filter(|(_, l)| !l.trim().is_empty() && !l.trim_start().starts_with('#'));
+    let Some((head_line, head)) = lines.next() else {
+        return Err(vec![TableFault {
+            line: 1,
+            column: None,
+            found: None,
+            message: "the table is empty".to_owned(),
+        }]);
+    };
+    let separator = [';', '\t']
+        .into_iter()
+        .find(|s| head.contains(*s))
+        .unwrap_or(',');
+    let heads: Vec<&str> = split(head, separator);
+    let mut faults = Vec::new();
+    let columns = columns(&heads, head_line, axes, &mut faults);
+    let mut rows = Vec::new();
+    for (line, content) in lines {
+        if faults.len() >= MOST_FAULTS {
+            break;
+        }
+        let cells = split(content, separator);
+        if cells.len() != heads.len() {
+            faults.push(TableFault {
+                line,
+                column: None,
+                found: None,
+                message: format!(
+                    "{} cells, but the header has {} columns",
+                    cells.len(),
+                    heads.len()
+                ),
+            });
+            continue;
+        }
+        let before = faults.len();
+        let row = Row {
+            line,
+            heads: &heads,
+            columns: &columns,
+            cells: &cells,
+            comma: separator != ',',
+        };
+        let found = row.read(axes, &mut faults);
+        if let (Some(found), true) = (found, faults.len() == before) {
+            rows.push(found);
+        }
+    }
+    if rows.is_empty() && faults.is_empty() {
+        faults.push(TableFault {
+            line: head_line,
+            column: None,
+            found: None,
+            message: "the table has a header and no rows".to_owned(),
+        });
+    }
+    match faults.is_empty() {
+        true => Ok(rows),
+        false => Err(faults),
+    }
+}
+
+/// Cells of a line without the spaces and quotes around them.
+fn split(line: &str, separator: char) -> Vec<&str> {
+    line.split(separator)
+        .map(|cell| cell.trim().trim_matches('"').trim())
+        .collect()
+}
+
+/// Component of a vector that a column holds.
+type ComponentOf = fn(&Column) -> Option<usize>;
+
+/// Meaning of the columns, none where there is a fault, and what the header misses.
+fn columns(
+    heads: &[&str],
+    line: usize,
+    axes: &Axes<'_>,
+    faults: &mut Vec<TableFault>,
+) -> Vec<Option<Column>> {
+    let mut columns: Vec<Option<Column>> = Vec::with_capacity(heads.len());
+    for head in heads {
+        let mut fault = |message: String| {
+            faults.push(TableFault {
+                line,
+                column: Some((*head).to_owned()),
+                found: None,
+                message,
+            });
+        };
+        let column = match column_of(head, axes) {
+            Ok(column) => Some(column),
+            Err(NoColumn::Unit(units)) => {
+                fault(format!(
+                    "the column states no unit; write {}",
+                    units.join(" or ")
+                ));
+                None
+            }
+            Err(NoColumn::Unknown) => {
+                let axes: Vec<&str> = axes.names().iter().map(|n| n.0.as_str()).collect();
+                fault(format!(
+                    "the column is not known; the axes of this model are {}, and `kinetostat identify --help` lists all columns",
+                    axes.join(", ")
+                ));
+                None
+            }
+        };
+        let same = |other: &Column| column.is_some_and(|c| quantity(&c) == quantity(other));
+        if columns.iter().flatten().any(same) && column != Some(Column::Note) {
+            fault("the quantity has a column already".to_owned());
+        }
+        columns.push(column);
+    }
+    let has = |wanted: &dyn Fn(&Column) -> bool| columns.iter().flatten().any(wanted);
+    let mut missing = |message: String| {
+        faults.push(TableFault {
+            line,
+            column: None,
+            found: None,
+            message,
+        })
+    };
+    let without: Vec<&str> = (axes.names().iter().enumerate())
+        .filter(|(i, _)| !has(&|c| matches!(c, Column::Axis(j, _) if j == i)))
+        .map(|(_, (name, _))| name.as_str())
+        .collect();
+    if !without.is_empty() {
+        missing(format!(
+            "columns are missing for the axes {}, with their units (such as {}_deg)",
+            without.join(", "),
+            without[0]
+        ));
+    }
+    if !has(&|c| matches!(c, Column::Force(..) | Column::Moment(..) | Column::Mass)) {
+        missing(
+            "no column states the load: fx_n, fy_n, fz_n, mx_n_m, my_n_m, mz_n_m or mass_kg"
+                .to_owned(),
+        );
+    }
+    let vectors: [(&str, ComponentOf); 4] = [
+        ("dx, dy and dz", |c| {
+            if let Column::Displacement(k, _) = c {
+                Some(*k)
+            } else {
+                None
+            }
+        }),
+        ("x, y and z", |c| {
+            if let Column::Position(k, _) = c {
+                Some(*k)
+            } else {
+                None
+            }
+        }),
+        ("rx, ry and rz", |c| {
+            if let Column::Turn(k, _) = c {
+                Some(*k)
+            } else {
+                None
+            }
+        }),
+        ("gauge_x, gauge_y and gauge_z", |c| {
+            if let Column::GaugeDirection(k) = c {
+                Some(*k)
+            } else {
+                None
+            }
+        }),
+    ];
+    let mut reads = false;
+    for (names, of) in vectors {
+        let count = (0..3).filter(|k| has(&|c| of(c) == Some(*k))).count();
+        reads |= count == 3;
+        if count == 1 || count == 2 {
+            missing(format!(
+                "of {names} only {count} of 3 columns are there; give all three"
+            ));
+        }
+    }
+    if !reads {
+        missing("no column states what was read: dx_mm, dy_mm, dz_mm, or x_mm, y_mm, z_mm, or rx_mrad, ry_mrad, rz_mrad, or gauge_mm with gauge_x, gauge_y, gauge_z".to_owned());
+    }
+    if has(&|c| matches!(c, Column::Gauge(_))) != has(&|c| matches!(c, Column::GaugeDirection(_))) {
+        missing("a dial gauge needs its reading (gauge_mm) and its direction (gauge_x, gauge_y, gauge_z)".to_owned());
+    }
+    columns
+}
+
+/// A column without its unit.
+fn quantity(column: &Column) -> Column {
+    match *column {
+        Column::Axis(i, _) => Column::Axis(i, 0.0),
+        Column::Force(k, _) => Column::Force(k, 0.0),
+        Column::Moment(k, _) => Column::Moment(k, 0.0),
+        Column::LoadAt(k, _) => Column::LoadAt(k, 0.0),
+        Column::Marker(k, _) => Column::Marker(k, 0.0),
+        Column::Displacement(k, _) => Column::Displacement(k, 0.0),
+        Column::Position(k, _) => Column::Position(k, 0.0),
+        Column::Turn(k, _) => Column::Turn(k, 0.0),
+        Column::Gauge(_) => Column::Gauge(0.0),
+        Column::Deviation(_) => Column::Deviation(0.0),
+        Column::TurnDeviation(_) => Column::TurnDeviation(0.0),
+        other => other,
+    }
+}
+
+struct Row<'r> {
+    line: usize,
+    heads: &'r [&'r str],
+    columns: &'r [Option<Column>],
+    cells: &'r [&'r str],
+    /// The decimal sign may be a comma.
+    comma: bool,
+}
+
+impl Row<'_> {
+    fn read(&self, axes: &Axes<'_>, faults: &mut Vec<TableFault>) -> Option<MeasuredRow> {
+        let mut shown = vec![0.0; axes.names().len()];
+        let mut load = TestLoad::force_at(Vector3::zeros(), Vector3::zeros());
+        let (mut mass, mut marker) = (0.0, Vector3::zeros());
+        let (mut displacement, mut position) = ([None; 3], [None; 3]);
+        let (mut turn, mut gauge, mut direction) = ([None; 3], None, [None; 3]);
+        let (mut deviation, mut turn_deviation) = (None, None);
+        let mut posture = None;
+        for ((column, cell), head) in self.columns.iter().zip(self.cells).zip(self.heads) {
+            let Some(column) = column else { continue };
+            if let Column::Posture = column {
+                posture = Some((*cell).to_owned()).filter(|name| !name.is_empty());
+            }
+            if matches!(column, Column::Posture | Column::Note) {
+                continue;
+            }
+            // What was not read may stay empty; a load that is not there is zero.
+            if cell.is_empty() && !matches!(column, Column::Axis(..)) {
+                continue;
+            }
+            let mut fault = |message: String| {
+                faults.push(TableFault {
+                    line: self.line,
+                    column: Some((*head).to_owned()),
+                    found: Some((*cell).to_owned()),
+                    message,
+                });
+            };
+            let Some(number) = self.number(cell) else {
+                fault(match cell.is_empty() {
+                    true => "the cell is empty; a number is needed".to_owned(),
+                    false => "this is no number".to_owned(),
+                });
+                continue;
+            };
+            match *column {
+                Column::Posture | Column::Note => {}
+                Column::Axis(i, unit) => shown[i] = number * unit,
+                Column::Force(k, unit) => load.force[k] = number * unit,
+                Column::Moment(k, unit) => load.moment[k] = number * unit,
+                Column::Mass if number < 0.0 => fault("a mass is not negative".to_owned()),
+                Column::Mass => mass = number,
+                Column::LoadAt(k, unit) => load.at[k] = number * unit,
+                Column::Marker(k, unit) => marker[k] = number * unit,
+                Column::Displacement(k, unit) => displacement[k] = Some(number * unit),
+                Column::Position(k, unit) => position[k] = Some(number * unit),
+                Column::Turn(k, unit) => turn[k] = Some(number * unit),
+                Column::Gauge(unit) => gauge = Some(number * unit),
+                Column::GaugeDirection(k) => direction[k] = Some(number),
+                Column::Deviation(_) | Column::TurnDeviation(_) if number <= 0.0 => {
+                    fault("a standard deviation is above zero".to_owned());
+                }
+                Column::Deviation(unit) => deviation = Some(number * unit),
+                Column::TurnDeviation(unit) => turn_deviation = Some(number * unit),
+            }
+        }
+        let mut fault = |message: String| {
+            faults.push(TableFault {
+                line: self.line,
+                column: None,
+                found: None,
+                message,
+            });
+        };
+        let mut vector = |parts: [Option<f64>; 3], names: &str| match parts {
+            [Some(x), Some(y), Some(z)] => Some(Vector3::new(x, y, z)),
+            [None, None, None] => None,
+            _ => {
+                fault(format!(
+                    "of {names} some cells are empty: fill all three, or none"
+                ));
+                None
+            }
+        };
+        let read = Read {
+            displacement: vector(displacement, "dx, dy and dz"),
+            position: vector(position, "x, y and z"),
+            turn: vector(turn, "rx, ry and rz"),
+            gauge: gauge.zip(vector(direction, "gauge_x, gauge_y and gauge_z")),
+        };
+        let read = Read {
+            gauge: read.gauge.and_then(|(value, direction)| {
+                let unit = direction.try_normalize(1e-12);
+                if unit.is_none() {
+                    fault("the direction of the gauge has no length".to_owned());
+                }
+                Some((value, unit?))
+            }),
+            ..read
+        };
+        if read == Read::default() {
+            fault("nothing was read in this row".to_owned());
+        }
+        let commands = axes.commands(&shown)?;
+        for message in axes.beyond_limits(&commands) {
+            fault(message);
+        }
+        Some(MeasuredRow {
+            line: self.line,
+            posture: posture.unwrap_or_else(|| self.posture_of_cells()),
+            shown,
+            commands,
+            load,
+            mass,
+            marker,
+            read,
+            deviation,
+            turn_deviation,
+        })
+    }
+
+    fn number(&self, cell: &str) -> Option<f64> {
+        let number = match self.comma && !cell.contains('.') {
+            true => cell.replacen(',', ".", 1).parse::<f64>(),
+            false => cell.parse::<f64>(),
+        };
+        number.ok().filter(|x| x.is_finite())
+    }
+
+    /// A posture without a name is called by its axes as they stand in the file.
+    fn posture_of_cells(&self) -> String {
+        let own = self
+            .columns
+            .iter()
+            .zip(self.cells)
+            .filter(|(c, _)| matches!(c, Some(Column::Axis(..))));
+        let cells: Vec<&str> = own.map(|(_, cell)| *cell).collect();
+        cells.join(" ")
+    }
+}

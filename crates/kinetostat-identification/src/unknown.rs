@@ -1,0 +1,482 @@
+//! The numbers of a model that are to be identified, as compliances.
+//!
+//! A deflection is linear in compliances, and stiffnesses that are fitted to measured deflections come out too small: errors of the
+//! readings would stand among the regressors. So a stiffness `k` is identified as `c = 1/k`, a 6 x 6 stiffness as the 21 numbers of
+//! its inverse, and the factor of a section as its reciprocal. Lengths and angles are identified as they are.
+
+use kinetostat::Mechanism;
+use kinetostat_model::{Model, Parameter, ParameterKind, ParametricModel};
+use nalgebra::{DMatrix, DVector, Matrix6};
+
+use crate::error::IdentificationError;
+
+/// Components of a 6 x 6 matrix as paths name them.
+const COMPONENTS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+/// How an unknown enters the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Form {
+    /// The reciprocal of a stiffness, a modulus, a rigidity or a factor.
+    Compliance,
+    /// Row and column of a compliance matrix whose inverse stands in the model.
+    MatrixEntry(usize, usize),
+    /// The number itself.
+    Value,
+}
+
+/// One number to identify.
+#[derive(Clone, Debug)]
+pub struct Unknown {
+    /// The number of the model that it decides.
+    pub parameter: Parameter,
+    /// How it enters the model.
+    pub form: Form,
+    /// What the model says, in SI: rad/(N m), m/N, m, rad.
+    pub nominal: f64,
+    /// A size that it can be compared with: its own, or that of its matrix.
+    pub size: f64,
+}
+
+/// Change of the stiffness matrix of a spring of a limb by one unknown.
+#[derive(Clone, Debug)]
+pub(crate) struct SpringChange {
+    pub limb: usize,
+    /// First coordinate of the spring.
+    pub first: usize,
+    pub matrix: DMatrix<f64>,
+}
+
+/// Unknowns of a model, in an order.
+#[derive(Clone, Debug)]
+pub struct Unknowns {
+    parametric: ParametricModel,
+    list: Vec<Unknown>,
+}
+
+impl Unknowns {
+    /// The numbers that match the patterns: a path, a path with `*` for any text, the path of a whole matrix, or `joints` for the
+    /// stiffness of every drive.
+    ///
+    /// ```
+    /// use kinetostat_identification::Unknowns;
+    /// let model = kinetostat_model::Model::preset("kuka_kr270_like")?;
+    /// let joints = Unknowns::matching(&model, &["joints"])?;
+    /// assert_eq!(joints.list().len(), 6);
+    /// assert!((joints.list()[1].nominal - 1.0 / 3.31e6).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A pattern that matches nothing, or numbers that no deflection shows.
+    pub fn matching(model: &Model, patterns: &[&str]) -> Result<Self, IdentificationError> {
+        let all = model.parameters();
+        let drives = drives(model);
+        let mut paths: Vec<&str> = Vec::new();
+        for pattern in patterns {
+            let hits = |p: &&Parameter| match *pattern {
+                "joints" => drives.contains(&p.path),
+                own => {
+                    matches(own, &p.path)
+                        || p.path
+                            .strip_prefix(own)
+                            .is_some_and(|rest| rest.starts_with('.'))
+                }
+            };
+            let before = paths.len();
+            let found = all.iter().filter(hits).map(|p| p.path.as_str());
+            let known = paths.clone();
+            paths.extend(found.filter(|path| !known.contains(path)));
+            let repeated = all.iter().any(|p| hits(&p));
+            if paths.len() == before && !repeated {
+                return Err(IdentificationError::NoNumber {
+                    pattern: (*pattern).to_owned(),
+                    examples: all
+                        .iter()
+                        .filter(|p| form(p).is_some())
+                        .take(3)
+                        .map(|p| p.path.clone())
+                        .collect(),
+                });
+            }
+        }
+        let whole = with_whole_matrices(&all, &paths);
+        let paths: Vec<&str> = whole.iter().map(String::as_str).collect();
+        let parametric = model.parametric(&paths)?;
+        let list = unknowns(parametric.parameters())?;
+        Ok(Self { parametric, list })
+    }
+
+    /// The unknowns.
+    #[must_use]
+    pub fn list(&self) -> &[Unknown] {
+        &self.list
+    }
+
+    /// What the model says of them, in SI.
+    #[must_use]
+    pub fn nominal(&self) -> DVector<f64> {
+        DVector::from_iterator(self.list.len(), self.list.iter().map(|u| u.nominal))
+    }
+
+    /// Sizes that changes of them can be compared with.
+    #[must_use]
+    pub fn sizes(&self) -> DVector<f64> {
+        DVector::from_iterator(self.list.len(), self.list.iter().map(|u| u.size))
+    }
+
+    /// First unknowns of the matrices, 21 numbers each.
+    #[must_use]
+    pub fn matrices(&self) -> Vec<usize> {
+        let first = |(i, u): (usize, &Unknown)| (u.form == Form::MatrixEntry(0, 0)).then_some(i);
+        self.list.iter().enumerate().filter_map(first).collect()
+    }
+
+    /// Numbers of the model file, each in its own unit, for these unknowns.
+    #[must_use]
+    pub fn in_file(&self, values: &DVector<f64>) -> Vec<f64> {
+        let mut out = Vec::with_capacity(values.len());
+        for (i, unknown) in self.list.iter().enumerate() {
+            let si = match unknown.form {
+                Form::Compliance => 1.0 / values[i],
+                Form::Value => values[i],
+                Form::MatrixEntry(row, column) => {
+                    if (row, column) == (0, 0) {
+                        let stiffness = inverse(&matrix_of(&values.rows(i, 21).into_owned()));
+                        out.extend(
+                            entries()
+                                .zip(&self.list[i..])
+                                .map(|((r, c), u)| stiffness[(r, c)] / u.parameter.in_si),
+                        );
+                    }
+                    continue;
+                }
+            };
+            out.push(si / unknown.parameter.in_si);
+        }
+        out
+    }
+
+    /// The machine with these unknowns.
+    ///
+    /// # Errors
+    /// As for a model file with these numbers.
+    pub fn mechanism(&self, values: &DVector<f64>) -> Result<Mechanism, IdentificationError> {
+        Ok(self.parametric.mechanism(&self.in_file(values))?)
+    }
+
+    /// How the machine changes with every unknown, at certain values of them.
+    pub(crate) fn changes(
+        &self,
+        values: &DVector<f64>,
+    ) -> Result<Vec<Change>, IdentificationError> {
+        let own = self.in_file(values);
+        let mut by_number = Vec::with_capacity(own.len());
+        for (i, unknown) in self.list.iter().enumerate() {
+            // The springs are linear in the number, so that a large step is exact.
+            let step = match unknown.form {
+                Form::Compliance => 0.25 * own[i],
+                Form::MatrixEntry(..) => {
+                    1e-3 * stiffness_size(&self.list, i) / unknown.parameter.in_si
+                }
+                Form::Value => 1e-2 * unknown.size / unknown.parameter.in_si,
+            };
+            let at = |sign: f64| {
+                let mut moved = own.clone();
+                moved[i] += sign * step;
+                self.parametric.mechanism(&moved)
+            };
+            let (more, less) = (at(1.0)?, at(-1.0)?);
+            let double = 2.0 * step * unknown.parameter.in_si;
+            let springs = match unknown.form {
+                Form::Value => Vec::new(),
+                _ => difference(&more, &less, double),
+            };
+            by_number.push(match springs.is_empty() {
+                true => Change::Machine {
+                    more,
+                    less,
+                    step: double,
+                },
+                false => Change::Springs(springs),
+            });
+        }
+        Ok(self.by_compliance(values, by_number))
+    }
+
+    /// From derivatives by stiffnesses to those by compliances.
+    fn by_compliance(&self, values: &DVector<f64>, by_number: Vec<Change>) -> Vec<Change> {
+        let mut out = Vec::with_capacity(by_number.len());
+        for (i, (unknown, change)) in self.list.iter().zip(&by_number).enumerate() {
+            let factor = -values[i].powi(-2);
+            out.push(match (unknown.form, change) {
+                (Form::Compliance, Change::Springs(springs)) => {
+                    Change::Springs(scaled(springs, factor))
+                }
+                (Form::Compliance, Change::Machine { more, less, step }) => Change::Machine {
+                    more: more.clone(),
+                    less: less.clone(),
+                    step: step / factor,
+                },
+                (Form::MatrixEntry(row, column), _) => {
+                    let first = i - entries().position(|e| e == (row, column)).unwrap_or(0);
+                    let upper = values.rows(first, 21).into_owned();
+                    Change::Springs(of_entry(&upper, row, column, &by_number[first..first + 21]))
+                }
+                (Form::Value, own) => own.clone(),
+            });
+        }
+        out
+    }
+}
+
+/// How a machine changes with one unknown.
+#[derive(Clone, Debug)]
+pub(crate) enum Change {
+    /// Springs only.
+    Springs(Vec<SpringChange>),
+    /// Anything: two machines, and the difference of the unknown between them.
+    Machine {
+        more: Mechanism,
+        less: Mechanism,
+        step: f64,
+    },
+}
+
+fn scaled(springs: &[SpringChange], factor: f64) -> Vec<SpringChange> {
+    let each = springs.iter();
+    each.map(|s| SpringChange {
+        matrix: &s.matrix * factor,
+        ..s.clone()
+    })
+    .collect()
+}
+
+/// Change of the springs with an entry of a compliance matrix, from their changes with the entries of its inverse: `dK = -K dC K`.
+fn of_entry(
+    upper: &DVector<f64>,
+    row: usize,
+    column: usize,
+    by_stiffness: &[Change],
+) -> Vec<SpringChange> {
+    let stiffness = inverse(&matrix_of(upper));
+    let mut unit = Matrix6::zeros();
+    unit[(row, column)] = 1.0;
+    unit[(column, row)] = 1.0;
+    let change = -stiffness * unit * stiffness;
+    let mut sum: Vec<SpringChange> = Vec::new();
+    for ((r, c), by_stiffness) in entries().zip(by_stiffness) {
+        let Change::Springs(springs) = by_stiffness else {
+            continue;
+        };
+        for part in scaled(springs, change[(r, c)]) {
+            let same = |s: &&mut SpringChange| s.limb == part.limb && s.first == part.first;
+            match sum.iter_mut().find(same) {
+                Some(own) => own.matrix += part.matrix,
+                None => sum.push(part),
+            }
+        }
+    }
+    sum
+}
+
+/// Paths of the stiffnesses of all drives.
+fn drives(model: &Model) -> Vec<String> {
+    let names: Vec<(String, String)> = model
+        .mechanism
+        .limbs()
+        .iter()
+        .flat_map(|limb| {
+            let chain = &limb.nominal;
+            chain
+                .actuators()
+                .iter()
+                .map(|a| (chain.name().to_owned(), a.name.clone()))
+                .collect::<Vec<_>>()
+        })
+        .collect();
+    let is_drive = |path: &str| {
+        names
+            .iter()
+            .any(|(_, name)| path.contains(&format!(".{name}.stiffness_n")))
+    };
+    model
+        .parameters()
+        .into_iter()
+        .map(|p| p.path)
+        .filter(|path| path.starts_with("chain.") && is_drive(path))
+        .collect()
+}
+
+/// True if `pattern`, with `*` for any text, is the whole of `path`.
+fn matches(pattern: &str, path: &str) -> bool {
+    let mut parts = pattern.split('*');
+    let Some(mut rest) = path.strip_prefix(parts.next().unwrap_or("")) else {
+        return false;
+    };
+    let mut parts: Vec<&str> = parts.collect();
+    let Some(last) = parts.pop() else {
+        return rest.is_empty();
+    };
+    for part in parts {
+        match rest.find(part) {
+            Some(at) => rest = &rest[at + part.len()..],
+            None => return false,
+        }
+    }
+    rest.ends_with(last)
+}
+
+/// Row and column of the upper triangle of a 6 x 6 matrix, row by row.
+pub(crate) fn entries() -> impl Iterator<Item = (usize, usize)> {
+    (0..6).flat_map(|row| (row..6).map(move |column| (row, column)))
+}
+
+fn matrix_of(upper: &DVector<f64>) -> Matrix6<f64> {
+    let mut matrix = Matrix6::zeros();
+    for ((row, column), value) in entries().zip(upper.iter()) {
+        matrix[(row, column)] = *value;
+        matrix[(column, row)] = *value;
+    }
+    matrix
+}
+
+/// Inverse of a symmetric matrix of metres and radians, scaled by its diagonal; not a number where it has none.
+fn inverse(matrix: &Matrix6<f64>) -> Matrix6<f64> {
+    let scale = matrix.diagonal().map(|d| 1.0 / d.abs().sqrt());
+    let scaled = Matrix6::from_fn(|i, j| matrix[(i, j)] * scale[i] * scale[j]);
+    let found = scaled
+        .try_inverse()
+        .unwrap_or_else(|| Matrix6::repeat(f64::NAN));
+    Matrix6::from_fn(|i, j| found[(i, j)] * scale[i] * scale[j])
+}
+
+/// Path of the matrix to which a number belongs, with its row and column.
+fn in_matrix(path: &str) -> Option<(&str, usize, usize)> {
+    let mut parts = path.rsplitn(3, '.');
+    let at = |part: &str| COMPONENTS.iter().position(|c| *c == part);
+    let (column, row) = (at(parts.next()?)?, at(parts.next()?)?);
+    let matrix = parts.next()?;
+    let key = matrix.rsplit('.').next()?;
+    (key.starts_with("matrix_n_")).then_some((matrix, row, column))
+}
+
+/// A matrix is identified as a whole: its inverse has all entries.
+fn with_whole_matrices(all: &[Parameter], paths: &[&str]) -> Vec<String> {
+    let mut out: Vec<String> = Vec::new();
+    for path in paths {
+        let own: Vec<&str> = match in_matrix(path) {
+            Some((matrix, ..)) => {
+                let same = all
+                    .iter()
+                    .filter(|p| in_matrix(&p.path).is_some_and(|m| m.0 == matrix));
+                same.map(|p| p.path.as_str()).collect()
+            }
+            None => vec![path],
+        };
+        out.extend(
+            own.into_iter()
+                .filter(|p| !paths[..0].contains(p))
+                .map(str::to_owned),
+        );
+    }
+    let mut seen = std::collections::BTreeSet::new();
+    out.retain(|path| seen.insert(path.clone()));
+    out
+}
+
+/// How a number of the file is identified; none where no deflection shows it.
+fn form(parameter: &Parameter) -> Option<Form> {
+    if let Some((_, row, column)) = in_matrix(&parameter.path) {
+        return Some(Form::MatrixEntry(row, column));
+    }
+    match parameter.kind {
+        ParameterKind::Stiffness
+        | ParameterKind::RotationalStiffness
+        | ParameterKind::Elasticity
+        | ParameterKind::Rigidity
+        | ParameterKind::Factor => Some(Form::Compliance),
+        ParameterKind::Length | ParameterKind::Angle | ParameterKind::Mass => Some(Form::Value),
+        _ => None,
+    }
+}
+
+fn unknowns(parameters: &[Parameter]) -> Result<Vec<Unknown>, IdentificationError> {
+    let mut list: Vec<Unknown> = Vec::with_capacity(parameters.len());
+    for parameter in parameters {
+        let not = || IdentificationError::NotIdentified {
+            path: parameter.path.clone(),
+            kind: parameter.kind.word(),
+        };
+        let form = form(parameter).ok_or_else(not)?;
+        let si = parameter.value * parameter.in_si;
+        let (nominal, size) = match form {
+            Form::Compliance if si > 0.0 => (1.0 / si, 1.0 / si),
+            Form::Compliance => return Err(not()),
+            Form::Value => (si, value_size(parameter)),
+            Form::MatrixEntry(..) => (si, 1.0),
+        };
+        list.push(Unknown {
+            parameter: parameter.clone(),
+            form,
+            nominal,
+            size,
+        });
+    }
+    // From the stiffnesses of a matrix to its compliances.
+    for first in 0..list.len() {
+        if list[first].form != Form::MatrixEntry(0, 0) {
+            continue;
+        }
+        let stiffness =
+            DVector::from_iterator(21, list[first..first + 21].iter().map(|u| u.nominal));
+        let compliance = inverse(&matrix_of(&stiffness));
+        for ((row, column), unknown) in entries().zip(&mut list[first..first + 21]) {
+            unknown.nominal = compliance[(row, column)];
+            unknown.size = (compliance[(row, row)] * compliance[(column, column)]).sqrt();
+        }
+    }
+    Ok(list)
+}
+
+/// Size that an error of a length, an angle or a mass is compared with, SI.
+fn value_size(parameter: &Parameter) -> f64 {
+    match parameter.kind {
+        ParameterKind::Mass => (parameter.value * parameter.in_si).abs().max(1.0),
+        _ => 1e-3,
+    }
+}
+
+/// Size of an entry of a stiffness matrix, SI: the mean of its diagonal ones.
+fn stiffness_size(list: &[Unknown], at: usize) -> f64 {
+    let Form::MatrixEntry(row, column) = list[at].form else {
+        return 1.0;
+    };
+    let first = at - entries().position(|e| e == (row, column)).unwrap_or(0);
+    let diagonal = |k: usize| {
+        let own = first + entries().position(|e| e == (k, k)).unwrap_or(0);
+        (list[own].parameter.value * list[own].parameter.in_si).abs()
+    };
+    (diagonal(row) * diagonal(column)).sqrt()
+}
+
+/// Springs in which two machines differ, divided by a step.
+fn difference(more: &Mechanism, less: &Mechanism, step: f64) -> Vec<SpringChange> {
+    let mut out = Vec::new();
+    for (limb, (a, b)) in more.limbs().iter().zip(less.limbs()).enumerate() {
+        let (a, b) = (&a.actual, &b.actual);
+        let home = a.home_coordinates();
+        for (one, other) in a.springs().iter().zip(b.springs()) {
+            if one == other {
+                continue;
+            }
+            let matrix = (one.stiffness_at(&home) - other.stiffness_at(&home)) / step;
+            out.push(SpringChange {
+                limb,
+                first: one.first,
+                matrix,
+            });
+        }
+    }
+    out
+}

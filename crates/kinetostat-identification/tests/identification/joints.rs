@@ -1,0 +1,406 @@
+//! Joint compliances of arm H6 and of a hexapod: reference values P1 to P3, P5, P11 to P13.
+
+use kinetostat::{Mechanism, Pose, PostureRequest};
+use kinetostat_identification::{
+    Fit, FitOptions, Observation, Reading, ReadingOf, TestLoad, Theory, Unknowns, identify, predict,
+};
+use kinetostat_model::Model;
+use nalgebra::{Vector3, vector};
+
+use crate::support::{H6, MARKERS, Random, TOOL, angles, asked, h6, three_markers, tracker, worst};
+
+type Outcome = anyhow::Result<()>;
+
+/// What the model itself shows, as if it had been read, with noise drawn reading by reading.
+fn read(
+    model: &Model,
+    observations: &mut [Observation],
+    theory: Theory,
+    mut noise: impl FnMut(&Reading) -> f64,
+) -> anyhow::Result<()> {
+    let unknowns = Unknowns::matching(model, &["joints"])?;
+    let predictions = predict(&unknowns, &unknowns.nominal(), observations, theory)?;
+    for (observation, prediction) in observations.iter_mut().zip(&predictions) {
+        for (reading, value) in observation
+            .readings
+            .iter_mut()
+            .zip(prediction.values.iter())
+        {
+            reading.value = value + noise(reading);
+        }
+    }
+    Ok(())
+}
+
+/// The fit, from a model whose joints are all wrong.
+fn fitted(
+    model: &Model,
+    observations: &[Observation],
+    theory: Theory,
+    robust: bool,
+) -> anyhow::Result<Fit> {
+    let numbers = Unknowns::matching(model, &["joints"])?;
+    let wrong: Vec<(String, f64)> = (numbers.list().iter().zip([1.3, 0.7, 1.2, 0.8, 1.4, 0.75]))
+        .map(|(u, factor)| (u.parameter.path.clone(), u.parameter.value * factor))
+        .collect();
+    let wrong: Vec<(&str, f64)> = wrong.iter().map(|(p, v)| (p.as_str(), *v)).collect();
+    let model = model.with_parameters(&wrong)?;
+    let unknowns = Unknowns::matching(&model, &["joints"])?;
+    Ok(identify(
+        &unknowns,
+        observations,
+        &FitOptions { theory, robust },
+    )?)
+}
+
+/// Where the markers are, base axes, m.
+fn markers_at(mechanism: &Mechanism, commands: &[f64]) -> anyhow::Result<Vec<Vector3<f64>>> {
+    let posture = mechanism.posture(PostureRequest::commands(commands))?;
+    let pose: &Pose = posture.target();
+    Ok(MARKERS
+        .iter()
+        .map(|m| (pose * nalgebra::Point3::from(*m)).coords)
+        .collect())
+}
+
+#[test]
+fn joints_without_noise_are_found_exactly() -> Outcome {
+    // P1.
+    let model = h6(false);
+    let mut random = Random::new(11);
+    let mut observations: Vec<Observation> = (0..12)
+        .map(|i| {
+            let commands = angles(&mut random);
+            let load = TestLoad::force_at(TOOL, random.vector(2000.0));
+            asked(
+                i,
+                commands,
+                load,
+                Reading::displacement(TOOL, &Vector3::zeros(), 1e-5).into(),
+            )
+        })
+        .collect();
+    read(&model, &mut observations, Theory::SmallLoads, |_| 0.0)?;
+    let first: Vec<f64> = observations[0].readings.iter().map(|r| r.value).collect();
+    assert!(
+        worst(&first, &[-1.780226119e-3, 1.484242967e-3, 1.007066861e-3]) < 1e-9,
+        "{first:?}"
+    );
+    let found = fitted(&model, &observations, Theory::SmallLoads, false)?;
+    assert!(worst(found.linear.estimate.as_slice(), &H6) < 1e-9);
+    Ok(())
+}
+
+/// P2: twenty postures, three markers, a tracker.
+fn twenty_postures(model: &Model) -> anyhow::Result<Vec<Observation>> {
+    let mut random = Random::new(12);
+    let mut observations = Vec::new();
+    for i in 0..20 {
+        let commands = angles(&mut random);
+        let load = TestLoad::force_at(TOOL, random.vector(2000.0));
+        let mut readings = three_markers(0.0);
+        for (marker, at) in markers_at(&model.mechanism, &commands)?.iter().enumerate() {
+            readings[3 * marker..3 * marker + 3]
+                .iter_mut()
+                .for_each(|r| r.deviation = tracker(at));
+        }
+        observations.push(asked(i, commands, load, readings));
+    }
+    read(model, &mut observations, Theory::SmallLoads, |r| {
+        r.deviation * random.normal()
+    })?;
+    Ok(observations)
+}
+
+#[test]
+fn a_tracker_weighs_what_is_near_more() -> Outcome {
+    let model = h6(false);
+    let observations = twenty_postures(&model)?;
+    let found = fitted(&model, &observations, Theory::SmallLoads, false)?.linear;
+    let c = [
+        2.494710954e-7,
+        3.006691322e-7,
+        3.999169165e-7,
+        2.965682762e-6,
+        3.298172290e-6,
+        2.420750505e-6,
+    ];
+    let std = [
+        1.702553749e-9,
+        1.296922883e-9,
+        1.863170542e-9,
+        3.717578140e-8,
+        2.639209079e-8,
+        2.858662853e-7,
+    ];
+    assert!(worst(found.estimate.as_slice(), &c) < 1e-6);
+    assert!(worst(found.deviations().as_slice(), &std) < 1e-4);
+    assert!(worst(&[found.chi_squared()], &[159.7038466]) < 1e-6);
+    assert_eq!(found.degrees_of_freedom(), 174);
+    let mut unweighted = observations;
+    unweighted
+        .iter_mut()
+        .flat_map(|o| &mut o.readings)
+        .for_each(|r| r.deviation = 1e-5);
+    let found = fitted(&model, &unweighted, Theory::SmallLoads, false)?.linear;
+    let wrong = [
+        2.487044218e-7,
+        3.001038760e-7,
+        4.002264708e-7,
+        2.969779562e-6,
+        3.304898100e-6,
+        2.425065747e-6,
+    ];
+    assert!(worst(found.estimate.as_slice(), &wrong) < 1e-6);
+    Ok(())
+}
+
+#[test]
+fn turns_and_displacements_are_weighed_by_their_deviations() -> Outcome {
+    // P3.
+    let model = h6(false);
+    let mut random = Random::new(13);
+    let mut observations: Vec<Observation> = (0..20)
+        .map(|i| {
+            let commands = angles(&mut random);
+            let load = TestLoad::force_at(TOOL, random.vector(2000.0));
+            let mut readings: Vec<Reading> =
+                Reading::displacement(TOOL, &Vector3::zeros(), 30e-6).into();
+            readings.extend(Reading::turn(&Vector3::zeros(), 20e-6));
+            asked(i, commands, load, readings)
+        })
+        .collect();
+    read(&model, &mut observations, Theory::SmallLoads, |r| {
+        r.deviation * random.normal()
+    })?;
+    let found = fitted(&model, &observations, Theory::SmallLoads, false)?.linear;
+    let c = [
+        2.514374885e-7,
+        3.026549174e-7,
+        3.991298680e-7,
+        2.984598853e-6,
+        3.285912414e-6,
+        2.405114406e-6,
+    ];
+    assert!(worst(found.estimate.as_slice(), &c) < 1e-6);
+    assert!(worst(&[found.chi_squared()], &[119.3248750]) < 1e-6);
+    assert_eq!(found.degrees_of_freedom(), 114);
+    Ok(())
+}
+
+/// P5: weights act in both states, 7 kN.
+fn heavy(noise: bool) -> anyhow::Result<(Model, Vec<Observation>)> {
+    let model = h6(true);
+    let mut random = Random::new(31);
+    let postures: Vec<Vec<f64>> = (0..20).map(|_| angles(&mut random)).collect();
+    let mut observations: Vec<Observation> = postures
+        .into_iter()
+        .enumerate()
+        .map(|(i, commands)| {
+            let load = TestLoad::force_at(TOOL, random.vector(7000.0));
+            asked(i, commands, load, three_markers(15e-6))
+        })
+        .collect();
+    let on = f64::from(u8::from(noise));
+    read(&model, &mut observations, Theory::Loaded, |r| {
+        on * r.deviation * random.normal()
+    })?;
+    Ok((model, observations))
+}
+
+#[test]
+fn loaded_equilibria_are_fitted_as_they_are() -> Outcome {
+    let (model, observations) = heavy(true)?;
+    let found = fitted(&model, &observations, Theory::Loaded, false)?;
+    let c = [
+        2.499683864e-7,
+        2.999657054e-7,
+        4.001737629e-7,
+        2.996241300e-6,
+        3.298511543e-6,
+        2.356880384e-6,
+    ];
+    assert!(
+        worst(found.linear.estimate.as_slice(), &c) < 1e-6,
+        "{}",
+        found.linear.estimate
+    );
+    assert!(worst(&[found.linear.chi_squared()], &[177.2265750]) < 1e-6);
+    assert!(found.steps <= 7, "{} steps", found.steps);
+    let small = fitted(&model, &observations, Theory::SmallLoads, false)?;
+    let biased = [
+        2.495512271e-7,
+        3.019608183e-7,
+        4.006540318e-7,
+        3.017652520e-6,
+        3.301425402e-6,
+        2.343655211e-6,
+    ];
+    assert!(worst(small.linear.estimate.as_slice(), &biased) < 1e-6);
+    let (model, observations) = heavy(false)?;
+    let exact = fitted(&model, &observations, Theory::Loaded, false)?;
+    assert!(
+        worst(exact.linear.estimate.as_slice(), &H6) < 1e-8,
+        "{}",
+        exact.linear.estimate
+    );
+    Ok(())
+}
+
+#[test]
+fn what_a_posture_shares_widens_the_deviation() -> Outcome {
+    // P11.
+    let model = h6(false);
+    let mut random = Random::new(81);
+    let mut observations: Vec<Observation> = (0..12)
+        .map(|i| {
+            let commands = angles(&mut random);
+            let load = TestLoad::force_at(TOOL, random.vector(2000.0));
+            asked(i, commands, load, three_markers(20e-6))
+        })
+        .collect();
+    read(&model, &mut observations, Theory::SmallLoads, |r| {
+        r.deviation * random.normal()
+    })?;
+    let found = fitted(&model, &observations, Theory::SmallLoads, false)?;
+    assert_eq!(found.linear.degrees_of_freedom(), 102);
+    assert!(worst(&[20e-6 * found.linear.sigma_factor()], &[1.935889340e-5]) < 1e-6);
+    let covariance = found
+        .linear
+        .covariance_by_postures(&found.postures)
+        .ok_or_else(|| anyhow::anyhow!("one posture"))?;
+    let std: Vec<f64> = covariance.diagonal().iter().map(|v| v.sqrt()).collect();
+    let wanted = [
+        8.763058537e-10,
+        6.365658024e-10,
+        1.324960321e-9,
+        1.921821440e-8,
+        1.845988177e-8,
+        1.652777394e-7,
+    ];
+    assert!(worst(&std, &wanted) < 1e-4, "{std:?}");
+    let out: Vec<f64> = found
+        .linear
+        .left_out(&found.postures)
+        .into_iter()
+        .flatten()
+        .flat_map(|r| r.as_slice().to_vec())
+        .collect();
+    assert_eq!(out.len(), 108);
+    let rms = 20e-6 * (out.iter().map(|r| r * r).sum::<f64>() / 108.0).sqrt();
+    assert!(worst(&[rms], &[2.002600563e-5]) < 1e-6, "{rms}");
+    Ok(())
+}
+
+#[test]
+fn jumps_of_whole_postures_count_less() -> Outcome {
+    // P12.
+    let model = h6(false);
+    let mut random = Random::new(82);
+    let mut observations: Vec<Observation> = (0..24)
+        .map(|i| {
+            let commands = angles(&mut random);
+            let load = TestLoad::force_at(TOOL, random.vector(2000.0));
+            asked(i, commands, load, three_markers(20e-6))
+        })
+        .collect();
+    read(&model, &mut observations, Theory::SmallLoads, |r| {
+        r.deviation * random.normal()
+    })?;
+    let mut jumps = Random::new(89);
+    for _ in 0..3 {
+        jumps.unit();
+    }
+    for posture in [17, 19, 21] {
+        let jump = Vector3::from_fn(|_, _| 1e-3 * jumps.normal());
+        for (k, reading) in observations[posture].readings.iter_mut().enumerate() {
+            reading.value += jump[k % 3];
+        }
+    }
+    let plain = fitted(&model, &observations, Theory::SmallLoads, false)?.linear;
+    let squares = [
+        2.093945328e-7,
+        2.758178195e-7,
+        4.140988753e-7,
+        3.060691210e-6,
+        3.522950082e-6,
+        2.212367869e-6,
+    ];
+    assert!(worst(plain.estimate.as_slice(), &squares) < 1e-6);
+    let robust = fitted(&model, &observations, Theory::SmallLoads, true)?.linear;
+    let huber = [
+        2.495173882e-7,
+        2.984187160e-7,
+        4.014481178e-7,
+        3.000742919e-6,
+        3.304057541e-6,
+        2.188052705e-6,
+    ];
+    assert!(
+        worst(robust.estimate.as_slice(), &huber) < 1e-6,
+        "{}",
+        robust.estimate
+    );
+    Ok(())
+}
+
+#[test]
+fn metres_and_millimetres_give_the_same() -> Outcome {
+    let model = h6(false);
+    let observations = twenty_postures(&model)?;
+    let unknowns = Unknowns::matching(&model, &["joints"])?;
+    let in_mm: Vec<(String, f64)> = Vec::new();
+    assert!(in_mm.is_empty());
+    let found = identify(
+        &unknowns,
+        &observations,
+        &FitOptions {
+            theory: Theory::SmallLoads,
+            robust: false,
+        },
+    )?;
+    // Rows in units of a micrometre instead of a standard deviation differ by a factor only.
+    let mut scaled = found.postures.clone();
+    for posture in &mut scaled {
+        posture.rows *= 1e3;
+        posture.values *= 1e3;
+    }
+    let sizes = unknowns.sizes();
+    let again =
+        kinetostat_identification::least_squares(&scaled, &unknowns.nominal(), &sizes, false);
+    assert!(worst(again.estimate.as_slice(), found.linear.estimate.as_slice()) < 1e-9);
+    Ok(())
+}
+
+#[test]
+fn derivatives_are_those_of_the_prediction() -> Outcome {
+    let (model, mut observations) = heavy(false)?;
+    observations.truncate(3);
+    observations[1].load.moment = vector![300.0, -200.0, 100.0];
+    observations[2].readings.push(Reading {
+        of: ReadingOf::About(Vector3::y()),
+        marker: Vector3::zeros(),
+        value: 0.0,
+        deviation: 1e-5,
+    });
+    let unknowns = Unknowns::matching(&model, &["joints"])?;
+    let at = unknowns.nominal();
+    for (theory, tolerance) in [(Theory::Loaded, 1e-6), (Theory::SmallLoads, 1e-7)] {
+        let found = predict(&unknowns, &at, &observations, theory)?;
+        for k in 0..6 {
+            let step = 1e-3 * at[k];
+            let moved = |sign: f64| {
+                let mut moved = at.clone();
+                moved[k] += sign * step;
+                predict(&unknowns, &moved, &observations, theory)
+            };
+            for ((more, less), own) in moved(1.0)?.iter().zip(&moved(-1.0)?).zip(&found) {
+                let slope = (&more.values - &less.values) / (2.0 * step);
+                let size = own.derivatives.column(k).norm().max(1e-9);
+                let off = (slope - own.derivatives.column(k)).norm() / size;
+                assert!(off < tolerance, "{theory:?} joint {k}: {off:e}");
+            }
+        }
+    }
+    Ok(())
+}

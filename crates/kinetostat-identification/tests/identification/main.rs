@@ -1,0 +1,5 @@
+//! Tests of the identification against the reference values.
+
+mod joints;
+mod links;
+mod support;
