@@ -27,6 +27,7 @@ mod explain;
 mod files;
 mod force;
 mod frf;
+mod identify;
 mod import;
 mod job;
 mod lobes;
@@ -238,6 +239,7 @@ fn run(command: Command, given: &Given) -> Answer<()> {
         Command::Convert(args) => convert::run(&args),
         Command::Dialect(args) => dialect::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Identify(args) => identify::run(&args),
         Command::Import(args) => import::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),
         Command::Model(args) => model::run(&args),

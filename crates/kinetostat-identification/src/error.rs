@@ -59,6 +59,9 @@ pub enum IdentificationError {
         /// Path of the number.
         path: String,
     },
+    /// The constrained least squares have no solution.
+    #[error(transparent)]
+    Constraints(#[from] crate::cone::ConeError),
     /// Nothing to fit.
     #[error("there are no readings")]
     NoReadings,

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::error::IdentificationError;
 use crate::experiment::{Observation, by_posture};
-use crate::least_squares::{LinearFit, PostureRows, fit};
+use crate::least_squares::{LinearFit, PostureRows, Start, fit};
 use crate::prediction::{Prediction, Theory, predict};
 use crate::unknown::Unknowns;
 
@@ -15,6 +15,8 @@ pub struct FitOptions {
     pub theory: Theory,
     /// Readings far from the fit count less (Huber).
     pub robust: bool,
+    /// Standard deviation of what the model says of the unknowns, relative to their sizes; none where nothing is believed of it.
+    pub prior: Option<f64>,
 }
 
 /// The fit to all readings.
@@ -28,6 +30,8 @@ pub struct Fit {
     pub names: Vec<String>,
     /// Readings of the model as it was, less what was read, in standard deviations, posture by posture.
     pub before: Vec<DVector<f64>>,
+    /// The readings themselves, in standard deviations, posture by posture.
+    pub readings: Vec<DVector<f64>>,
     /// Steps.
     pub steps: usize,
 }
@@ -53,6 +57,7 @@ pub fn identify(
     let sizes = unknowns.sizes();
     let mut values = unknowns.nominal();
     let nominal = values.clone();
+    let constraints = unknowns.constraints();
     let mut before = None;
     let mut change = f64::NAN;
     for steps in 1..=MOST_STEPS {
@@ -66,16 +71,29 @@ pub fn identify(
                 .map(|p| &p.values - &p.rows * &values)
                 .collect::<Vec<_>>()
         });
-        let linear = fit(&postures, &nominal, &sizes, options.robust);
-        change = (&linear.estimate - &values).component_div(&sizes).amax();
-        let settled = change <= SETTLED * linear.estimate.component_div(&sizes).amax().max(1.0);
-        values = within_reach(&values, &linear.estimate, unknowns);
+        let prior = options.prior.map(|share| belief(&nominal, &sizes, share));
+        let with_prior: Vec<PostureRows> = postures.iter().cloned().chain(prior).collect();
+        let start = Start {
+            from: &nominal,
+            sizes: &sizes,
+            constraints: &constraints,
+        };
+        let mut linear = fit(&with_prior, &start, options.robust)?;
+        let next = unknowns.buildable(&linear.estimate);
+        change = (&next - &values).component_div(&sizes).amax();
+        let settled = change <= SETTLED * next.component_div(&sizes).amax().max(1.0);
+        values = next;
         if settled {
+            linear.estimate = values;
             return Ok(Fit {
                 linear,
                 postures,
                 names: groups.iter().map(|(name, _)| (*name).to_owned()).collect(),
                 before: before.clone(),
+                readings: groups
+                    .iter()
+                    .map(|(_, members)| readings(members, observations))
+                    .collect(),
                 steps,
             });
         }
@@ -86,12 +104,20 @@ pub fn identify(
     })
 }
 
-/// A compliance on the way stays positive, so that its machine can be built: a tenth of what it was.
-fn within_reach(from: &DVector<f64>, to: &DVector<f64>, unknowns: &Unknowns) -> DVector<f64> {
-    DVector::from_fn(from.len(), |i, _| match unknowns.list()[i].form {
-        crate::unknown::Form::Compliance if to[i] <= 0.1 * from[i] => 0.1 * from[i],
-        _ => to[i],
-    })
+/// Rows that say what is believed: each unknown is what the model says, to a share of its size.
+fn belief(nominal: &DVector<f64>, sizes: &DVector<f64>, share: f64) -> PostureRows {
+    let precision = sizes.map(|size| 1.0 / (share * size));
+    PostureRows {
+        rows: DMatrix::from_diagonal(&precision),
+        values: precision.component_mul(nominal),
+    }
+}
+
+/// The readings of one posture, in standard deviations.
+fn readings(members: &[usize], observations: &[Observation]) -> DVector<f64> {
+    let all = members.iter().flat_map(|m| &observations[*m].readings);
+    let each: Vec<f64> = all.map(|r| r.value / r.deviation).collect();
+    DVector::from_vec(each)
 }
 
 /// The rows of one posture, divided by the standard deviations.

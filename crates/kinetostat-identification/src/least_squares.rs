@@ -14,6 +14,8 @@
 use kinetostat::linalg::SingularValues;
 use nalgebra::{DMatrix, DVector};
 
+use crate::cone::{ConeError, ConeLeastSquares, Constraint};
+
 /// Readings of one posture: linear in the unknowns, each row divided by the standard deviation of its reading.
 #[derive(Clone, Debug)]
 pub struct PostureRows {
@@ -43,6 +45,8 @@ pub struct LinearFit {
     pub weights: Vec<DVector<f64>>,
     /// Number of readings.
     pub readings: usize,
+    /// Unknowns at zero, their bound, and first unknowns of matrices with a load that does not deflect them.
+    pub at_bound: Vec<usize>,
 }
 
 /// How far a row may be from the fit before it counts less, in standard deviations (Huber 1964): 95 % efficient where there is no
@@ -80,20 +84,33 @@ pub(crate) fn reduced(
     (stack.remove_column(unknowns), right)
 }
 
+/// Where an estimate starts and what it must meet.
+#[derive(Clone, Copy, Debug)]
+pub struct Start<'a> {
+    /// What combinations that the rows do not see keep.
+    pub from: &'a DVector<f64>,
+    /// Sizes in which the distance from it is measured.
+    pub sizes: &'a DVector<f64>,
+    /// Compliances that are not negative, matrices that are positive semi-definite.
+    pub constraints: &'a [Constraint],
+}
+
 /// The estimate nearest to `from` in units of `sizes` among those that fit best: combinations that the rows do not see stay as they
 /// are there. `robust` weighs rows that are far from the fit less (Huber), until the estimate does not change.
-#[must_use]
+///
+/// # Errors
+/// As [`ConeLeastSquares::solve`], which is asked where the estimate does not meet the constraints.
 pub fn fit(
     postures: &[PostureRows],
-    from: &DVector<f64>,
-    sizes: &DVector<f64>,
+    problem: &Start<'_>,
     robust: bool,
-) -> LinearFit {
+) -> Result<LinearFit, ConeError> {
+    let sizes = problem.sizes;
     let mut weights: Vec<_> = postures
         .iter()
         .map(|p| DVector::repeat(p.values.len(), 1.0))
         .collect();
-    let mut found = weighted(postures, &weights, from, sizes);
+    let mut found = weighted(postures, &weights, problem)?;
     // Weights contract by a constant factor; a hundred turns are a tenth of those needed for the last digit at worst.
     for _ in 0..if robust { 1000 } else { 0 } {
         for (weight, residual) in weights.iter_mut().zip(&found.residuals) {
@@ -101,7 +118,7 @@ pub fn fit(
                 *w = (HUBER / r.abs()).min(1.0);
             }
         }
-        let next = weighted(postures, &weights, from, sizes);
+        let next = weighted(postures, &weights, problem)?;
         let change = (&next.estimate - &found.estimate)
             .component_div(sizes)
             .amax();
@@ -110,26 +127,46 @@ pub fn fit(
             break;
         }
     }
-    found
+    Ok(found)
 }
 
 fn weighted(
     postures: &[PostureRows],
     weights: &[DVector<f64>],
-    from: &DVector<f64>,
-    sizes: &DVector<f64>,
-) -> LinearFit {
+    problem: &Start<'_>,
+) -> Result<LinearFit, ConeError> {
+    let Start {
+        from,
+        sizes,
+        constraints,
+    } = *problem;
     let (triangle, right) = reduced(postures, weights);
     let left = &right - &triangle * from;
-    let scaled = DMatrix::from_fn(triangle.nrows(), triangle.ncols(), |i, j| {
+    let unknowns = sizes.len();
+    let mut scaled = DMatrix::from_fn(triangle.nrows(), unknowns, |i, j| {
         triangle[(i, j)] * sizes[j]
     });
-    let (inverse, rank) = pseudo_inverse(&scaled);
-    let step = &inverse * left;
-    let estimate = from + step.component_mul(sizes);
+    let (mut inverse, rank) = pseudo_inverse(&scaled);
+    let mut estimate = from + (&inverse * left).component_mul(sizes);
+    let mut at_bound = Vec::new();
+    if !constraints.iter().all(|c| c.holds(&estimate)) {
+        let problem = ConeLeastSquares::new(&triangle, &right, constraints);
+        let problem = problem.reference(from).nominal_sizes(sizes.as_slice());
+        let solved = problem.solve()?;
+        estimate = solved.x;
+        for (constraint, state) in constraints.iter().zip(&solved.blocks) {
+            if state.at_bound > 0 {
+                at_bound.push(constraint.columns()[0]);
+            }
+            // A number at its bound is known as well as the bound is.
+            if let (Constraint::NonNegative(column), true) = (constraint, state.at_bound > 0) {
+                scaled.column_mut(*column).fill(0.0);
+            }
+        }
+        (inverse, _) = pseudo_inverse(&scaled);
+    }
     let normal = &inverse * inverse.transpose();
-    let unknowns = sizes.len();
-    LinearFit {
+    Ok(LinearFit {
         normal_inverse: DMatrix::from_fn(unknowns, unknowns, |i, j| {
             normal[(i, j)] * sizes[i] * sizes[j]
         }),
@@ -140,8 +177,9 @@ fn weighted(
             .collect(),
         weights: weights.to_vec(),
         readings: postures.iter().map(|p| p.values.len()).sum(),
+        at_bound,
         estimate,
-    }
+    })
 }
 
 /// Pseudo-inverse and rank of a matrix whose columns are scaled.

@@ -12,22 +12,30 @@
 //! ```
 
 mod axes;
+mod cone;
+pub mod design;
 mod error;
 mod experiment;
 mod fit;
 mod identifiability;
 mod least_squares;
 mod prediction;
+mod result;
 mod table;
 mod unknown;
 
 pub use axes::Axes;
+pub use cone::{BlockState, ConeError, ConeLeastSquares, ConeSolution, Constraint, KktResidual};
 pub use error::IdentificationError;
 pub use experiment::{Observation, Reading, ReadingOf, TestLoad};
 pub use fit::{Fit, FitOptions, identify};
 pub use identifiability::{Combination, Identifiability, Knowledge, WEAK};
-pub use least_squares::{HUBER, LinearFit, PostureRows, UNSEEN, fit as least_squares};
+pub use least_squares::{HUBER, LinearFit, PostureRows, Start, UNSEEN, fit as least_squares};
 pub use prediction::{Prediction, Theory, predict};
+pub use result::{
+    Finding, Identification, IdentifiedNumber, PostureResiduals, identification, identified_model,
+    uncertainty_file,
+};
 pub use table::{
     COLUMNS, DEVIATION, MOST_FAULTS, MeasuredRow, Read, TURN_DEVIATION, TableFault, observations,
     read_table,

@@ -8,10 +8,14 @@ use kinetostat::Mechanism;
 use kinetostat_model::{Model, Parameter, ParameterKind, ParametricModel};
 use nalgebra::{DMatrix, DVector, Matrix6};
 
+use crate::cone::Constraint;
 use crate::error::IdentificationError;
 
 /// Components of a 6 x 6 matrix as paths name them.
 const COMPONENTS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+/// Compliance of a spring that is rigid, relative to what the model said.
+const RIGID: f64 = 1e-6;
 
 /// How an unknown enters the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,11 +129,39 @@ impl Unknowns {
         DVector::from_iterator(self.list.len(), self.list.iter().map(|u| u.size))
     }
 
-    /// First unknowns of the matrices, 21 numbers each.
-    #[must_use]
-    pub fn matrices(&self) -> Vec<usize> {
-        let first = |(i, u): (usize, &Unknown)| (u.form == Form::MatrixEntry(0, 0)).then_some(i);
-        self.list.iter().enumerate().filter_map(first).collect()
+    /// What the unknowns must meet: compliances are not negative, matrices are positive semi-definite.
+    pub(crate) fn constraints(&self) -> Vec<Constraint> {
+        let own = |(i, unknown): (usize, &Unknown)| match unknown.form {
+            Form::Compliance => Some(Constraint::NonNegative(i)),
+            Form::MatrixEntry(0, 0) => {
+                Some(Constraint::PositiveSemidefinite((i..i + 21).collect()))
+            }
+            _ => None,
+        };
+        self.list.iter().enumerate().filter_map(own).collect()
+    }
+
+    /// The unknowns with the least compliance that a model can have: a rigid spring is a million times as stiff as it was.
+    pub(crate) fn buildable(&self, values: &DVector<f64>) -> DVector<f64> {
+        let mut out = values.clone();
+        for (i, Unknown { form, size, .. }) in self.list.iter().enumerate() {
+            match form {
+                Form::Compliance => out[i] = out[i].max(RIGID * size),
+                Form::MatrixEntry(0, 0) => {
+                    let upper = values.rows(i, 21).into_owned();
+                    let yields = with_unit_diagonal(&matrix_of(&upper))
+                        .symmetric_eigenvalues()
+                        .min();
+                    // A load without a deflection gets a little of one.
+                    let own = entries()
+                        .zip(i..i + 21)
+                        .filter(|((r, c), _)| r == c && !(yields > RIGID));
+                    own.for_each(|(_, k)| out[k] += RIGID * self.list[k].size);
+                }
+                _ => {}
+            }
+        }
+        out
     }
 
     /// Numbers of the model file, each in its own unit, for these unknowns.
@@ -339,6 +371,12 @@ fn matrix_of(upper: &DVector<f64>) -> Matrix6<f64> {
         matrix[(column, row)] = *value;
     }
     matrix
+}
+
+/// A matrix of metres and radians in units in which its diagonal is one.
+fn with_unit_diagonal(matrix: &Matrix6<f64>) -> Matrix6<f64> {
+    let scale = matrix.diagonal().map(|d| 1.0 / d.abs().sqrt());
+    Matrix6::from_fn(|i, j| matrix[(i, j)] * scale[i] * scale[j])
 }
 
 /// Inverse of a symmetric matrix of metres and radians, scaled by its diagonal; not a number where it has none.

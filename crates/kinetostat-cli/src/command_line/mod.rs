@@ -25,6 +25,7 @@ use crate::expand::ExpandArgs;
 use crate::explain::ExplainArgs;
 use crate::force::arguments::ForceArgs;
 use crate::frf::arguments::FrfArgs;
+use crate::identify::IdentifyArgs;
 use crate::import::arguments::ImportArgs;
 use crate::lobes::arguments::LobesArgs;
 use crate::map::arguments::MapArgs;
@@ -110,6 +111,7 @@ pub(crate) enum Command {
     Convert(Box<ConvertArgs>),
     Dialect(DialectArgs),
     Check(CheckArgs),
+    Identify(Box<IdentifyArgs>),
     Import(Box<ImportArgs>),
     Reproduce(ReproduceArgs),
     Model(ModelArgs),

@@ -2,7 +2,8 @@
 
 use kinetostat::{Mechanism, Pose, PostureRequest};
 use kinetostat_identification::{
-    Fit, FitOptions, Observation, Reading, ReadingOf, TestLoad, Theory, Unknowns, identify, predict,
+    Finding, Fit, FitOptions, Knowledge, Observation, Reading, ReadingOf, Start, TestLoad, Theory,
+    Unknowns, identification, identified_model, identify, predict,
 };
 use kinetostat_model::Model;
 use nalgebra::{Vector3, vector};
@@ -49,7 +50,11 @@ fn fitted(
     Ok(identify(
         &unknowns,
         observations,
-        &FitOptions { theory, robust },
+        &FitOptions {
+            theory,
+            robust,
+            prior: None,
+        },
     )?)
 }
 
@@ -349,14 +354,13 @@ fn metres_and_millimetres_give_the_same() -> Outcome {
     let model = h6(false);
     let observations = twenty_postures(&model)?;
     let unknowns = Unknowns::matching(&model, &["joints"])?;
-    let in_mm: Vec<(String, f64)> = Vec::new();
-    assert!(in_mm.is_empty());
     let found = identify(
         &unknowns,
         &observations,
         &FitOptions {
             theory: Theory::SmallLoads,
             robust: false,
+            prior: None,
         },
     )?;
     // Rows in units of a micrometre instead of a standard deviation differ by a factor only.
@@ -366,8 +370,13 @@ fn metres_and_millimetres_give_the_same() -> Outcome {
         posture.values *= 1e3;
     }
     let sizes = unknowns.sizes();
-    let again =
-        kinetostat_identification::least_squares(&scaled, &unknowns.nominal(), &sizes, false);
+    let nominal = unknowns.nominal();
+    let start = Start {
+        from: &nominal,
+        sizes: &sizes,
+        constraints: &[],
+    };
+    let again = kinetostat_identification::least_squares(&scaled, &start, false)?;
     assert!(worst(again.estimate.as_slice(), found.linear.estimate.as_slice()) < 1e-9);
     Ok(())
 }
@@ -402,5 +411,81 @@ fn derivatives_are_those_of_the_prediction() -> Outcome {
             }
         }
     }
+    Ok(())
+}
+
+#[test]
+fn what_cannot_be_seen_is_named() -> Outcome {
+    // A weight never turns joint 1, whose axis is vertical; a force through axis 6 never turns joint 6.
+    let model = h6(false);
+    let mut random = Random::new(3);
+    let mut observations: Vec<Observation> = (0..12)
+        .map(|i| {
+            let load = TestLoad::force_at(vector![0.25, 0.0, 0.0], vector![0.0, 0.0, -2500.0]);
+            asked(i, angles(&mut random), load, three_markers(20e-6))
+        })
+        .collect();
+    read(&model, &mut observations, Theory::SmallLoads, |r| {
+        r.deviation * random.normal()
+    })?;
+    let unknowns = Unknowns::matching(&model, &["joints"])?;
+    let options = FitOptions {
+        theory: Theory::SmallLoads,
+        robust: false,
+        prior: None,
+    };
+    let found = identification(&unknowns, &observations, &options)?;
+    assert_eq!((found.rank, found.degrees_of_freedom), (4, 104));
+    let knowledge: Vec<Knowledge> = found.numbers.iter().map(|n| n.knowledge).collect();
+    let joints = [
+        Knowledge::Unseen,
+        Knowledge::Identified,
+        Knowledge::Identified,
+        Knowledge::Identified,
+        Knowledge::Identified,
+        Knowledge::Unseen,
+    ];
+    assert_eq!(knowledge, joints);
+    let unseen: Vec<&Finding> = found
+        .findings
+        .iter()
+        .filter(|f| matches!(f, Finding::Unseen { .. }))
+        .collect();
+    assert_eq!(unseen.len(), 2, "{:?}", found.findings);
+    assert!(
+        worst(
+            &[found.numbers[0].identified.unwrap_or(0.0)],
+            &[1.0 / H6[0]]
+        ) < 1e-12,
+        "it keeps its value"
+    );
+    Ok(())
+}
+
+#[test]
+fn the_identified_model_has_the_numbers_and_their_source() -> Outcome {
+    let model = h6(false);
+    let observations = twenty_postures(&model)?;
+    let unknowns = Unknowns::matching(&model, &["joints"])?;
+    let options = FitOptions {
+        theory: Theory::SmallLoads,
+        robust: false,
+        prior: None,
+    };
+    let found = identification(&unknowns, &observations, &options)?;
+    let identified = identified_model(&model, &found, "pulls.csv")?;
+    let text = identified.to_toml()?;
+    assert!(
+        text.contains("identified from pulls.csv, standard deviation"),
+        "{text}"
+    );
+    let again = Unknowns::matching(&identified, &["joints"])?;
+    let numbers: Vec<f64> = found
+        .numbers
+        .iter()
+        .map(|n| n.identified.unwrap_or(f64::NAN))
+        .collect();
+    let stiffnesses: Vec<f64> = again.nominal().iter().map(|c| 1.0 / c).collect();
+    assert!(worst(&stiffnesses, &numbers) < 1e-12);
     Ok(())
 }

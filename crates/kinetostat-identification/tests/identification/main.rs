@@ -1,5 +1,15 @@
 //! Tests of the identification against the reference values.
 
+mod active_set;
+mod candidates;
+mod cone_link;
+mod cone_scalars;
+mod design;
+mod design_refusals;
+mod fanuc;
+mod generator;
 mod joints;
+mod link_problem;
 mod links;
+mod regressors;
 mod support;

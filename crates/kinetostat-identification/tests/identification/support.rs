@@ -32,6 +32,10 @@ impl Random {
         low + (high - low) * self.unit()
     }
 
+    pub fn within(&mut self, low: f64, high: f64) -> Vector3<f64> {
+        Vector3::from_fn(|_, _| self.between(low, high))
+    }
+
     pub fn vector(&mut self, size: f64) -> Vector3<f64> {
         Vector3::from_fn(|_, _| self.between(-size, size))
     }

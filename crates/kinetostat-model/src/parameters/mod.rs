@@ -26,6 +26,7 @@ use crate::assembly::mechanism::mechanism_of;
 use crate::findings::Findings;
 use crate::model::{Model, move_home_within_reach};
 use crate::problem::ModelError;
+use crate::schema::Document;
 
 impl Model {
     /// Every number of the model file, in the order of the file's tables, with factors on sections and stiffnesses.
@@ -64,6 +65,21 @@ impl Model {
         Self::from_document(&document, &parametric.file)
     }
 
+    /// The model with other words about the sources of some numbers, by their paths: those of the element, section or stiffness that
+    /// has the number. Paths of other numbers are passed over.
+    ///
+    /// # Errors
+    /// [`ModelError`] as for a file with these words; cannot happen for a model that was read.
+    pub fn with_sources(&self, sources: &[(&str, String)]) -> Result<Self, ModelError> {
+        let mut document = self.document.clone();
+        for (path, words) in sources {
+            if let Some(source) = source_of(&mut document, path) {
+                *source = Some(words.clone());
+            }
+        }
+        Self::from_document(&document, &self.changed())
+    }
+
     /// The model as a function of some of its numbers.
     ///
     /// # Errors
@@ -74,6 +90,35 @@ impl Model {
             resolved,
             file: self.changed(),
         })
+    }
+}
+
+/// The words about the source of a number.
+fn source_of<'d>(document: &'d mut Document, path: &str) -> Option<&'d mut Option<String>> {
+    let (kind, rest) = path.split_once('.')?;
+    let is_in = |name: &str| {
+        rest.strip_prefix(name)
+            .is_some_and(|after| after.starts_with('.'))
+    };
+    match kind {
+        "chain" => {
+            let (name, chain) = document.chain.iter_mut().find(|(name, _)| is_in(name))?;
+            let rest = &rest[name.len() + 1..];
+            let mut elements = chain.elements.iter_mut().enumerate();
+            let (_, own) = elements.find(|(i, element)| {
+                let label = element.name_or_number(i + 1);
+                rest.strip_prefix(&label)
+                    .is_some_and(|after| after.starts_with('.'))
+            })?;
+            own.source_mut()
+        }
+        "section" => (document.section.iter_mut())
+            .find(|(name, _)| is_in(name))
+            .map(|(_, s)| &mut s.source),
+        "stiffness" => (document.stiffness.iter_mut())
+            .find(|(name, _)| is_in(name))
+            .map(|(_, s)| &mut s.source),
+        _ => None,
     }
 }
 

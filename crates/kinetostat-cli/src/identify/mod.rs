@@ -1,0 +1,297 @@
+//! `kinetostat identify`: numbers of a model from measured deflections.
+//!
+//! It takes a model and a table of measurements and gives the numbers with what is known of them, a model file with them, and their
+//! uncertainty.
+
+mod text;
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use kinetostat_diagnostic::{Diagnostic, ErrorCode, Location};
+use kinetostat_identification::{
+    Axes, DEVIATION, FitOptions, Identification, IdentificationError, MeasuredRow, TableFault,
+    Theory, Unknowns, identification, identified_model, observations, read_table, uncertainty_file,
+};
+use kinetostat_model::Model;
+use kinetostat_report::{Plot, PlotLine};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::files::answer_files::{AnswerFiles, ClaimedFiles, Shown};
+use crate::files::input_files::InputFiles;
+use crate::options::number;
+use crate::ui::csv_table::{cell, written};
+use crate::ui::failure::{Answer, Failing, Failure};
+use crate::ui::result_form::ResultForm;
+
+/// Stiffnesses of a machine from measured deflections
+///
+/// Pull at the tool with a known force, or hang a known mass on it, in some fifteen postures, and read how far it moves: with a
+/// laser tracker, or with a dial gauge. The stiffnesses that fit the readings best are found, with what the readings can and cannot
+/// tell of them.
+#[derive(Debug, Args)]
+#[command(after_help = crate::options::EXIT_CODES, after_long_help = HELP)]
+pub(crate) struct IdentifyArgs {
+    /// Preset or model file
+    #[arg(value_name = "MODEL")]
+    pub(crate) model: String,
+    /// Table of the measurements (CSV, see below)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) measured: PathBuf,
+    /// Numbers to identify: paths as in `chain.arm.A2.stiffness_n_m_per_rad`, * for any text;
+    /// `joints` for the stiffness of every drive
+    #[arg(long, value_name = "NUMBER", num_args = 1.., default_value = "joints")]
+    pub(crate) numbers: Vec<String>,
+    /// Standard deviation of a reading where the table has none, mm [default: 0.02]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
+    pub(crate) sigma_mm: Option<f64>,
+    /// How far the model's numbers are trusted, percent: what the readings do not tell stays near them
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = number)]
+    pub(crate) prior_percent: Option<f64>,
+    /// Readings far from the fit count less, so that a few bad ones spoil little
+    #[arg(long)]
+    pub(crate) robust: bool,
+    /// Displacements in proportion to the load, without weights: as textbooks do
+    #[arg(long)]
+    pub(crate) small_loads: bool,
+    /// Model file with the identified numbers
+    #[arg(long, short, value_name = "FILE", help_heading = "Outputs")]
+    pub(crate) out: Option<PathBuf>,
+    /// Their standard deviations and correlations, for `tolerance --uncertain` and `compensate --uncertain`
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    pub(crate) uncertain_out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) outputs: AnswerFiles,
+}
+
+const HELP: &str = "\
+Columns of the table, separated by commas, semicolons or tabs:
+  posture              name; rows of the same name share its errors
+  A1_deg, A2_deg, ...  axes as the controller shows them, or the model's joints
+  fx_n, fy_n, fz_n     force on the tool, base axes; mx_n_m, my_n_m, mz_n_m
+  mass_kg              mass that hangs on the tool
+  load_x_mm, ...       where force and mass act, in the tool's frame
+  marker_x_mm, ...     the point that is read, in the tool's frame
+  dx_mm, dy_mm, dz_mm  its displacement by the load, base axes (_um, _m)
+  x_mm, y_mm, z_mm     its place, loaded and (loads of zero) unloaded
+  rx_mrad, ...         turn of the tool by the load (_deg, _rad, _urad)
+  gauge_mm, gauge_x, gauge_y, gauge_z  a dial gauge, and where it counts up
+  sigma_mm             standard deviation of this row
+  note                 anything
+
+Examples:
+  kinetostat identify my_robot.toml --measured pulls.csv -o identified.toml \\
+      --uncertain-out spread.toml
+  kinetostat identify my_robot.toml --measured pulls.csv --robust \\
+      --numbers joints chain.arm.tilt*.stiffness_n_m_per_rad --prior-percent 50
+
+Exit codes:
+  0    answered
+  1    wrong input: a file, a number or an option; the message says which
+  2    no answer: the fit does not settle, or a posture has no equilibrium
+  130  stopped with Ctrl-C; nothing was written";
+
+/// The answer, stable names with units.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct IdentifyAnswer {
+    schema: u32,
+    kinetostat_version: &'static str,
+    model: String,
+    model_source: String,
+    measurements: String,
+    /// Loads are small and weights left out.
+    small_loads: bool,
+    robust: bool,
+    #[serde(flatten)]
+    found: Identification,
+}
+
+/// Results that the command gives as JSON.
+pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<IdentifyAnswer>("identified numbers")];
+
+impl From<IdentificationError> for Failure {
+    fn from(error: IdentificationError) -> Self {
+        match error {
+            IdentificationError::Model(error) => error.into(),
+            IdentificationError::NoNumber { .. } => ErrorCode::UnknownName.failure(error),
+            IdentificationError::NotIdentified { .. } | IdentificationError::NeedsLoads { .. } => {
+                ErrorCode::Value.failure(error)
+            }
+            IdentificationError::NotConverged { .. } => ErrorCode::NotConverged.failure(error),
+            IdentificationError::Free { .. } => ErrorCode::FreeDirection.failure(error),
+            other => ErrorCode::NoAnswer.failure(other),
+        }
+    }
+}
+
+pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
+    let files = InputFiles::default();
+    let (model, path) = files.model(&args.model, Path::new(""))?;
+    model.require_stiffness()?;
+    let name = args.measured.display().to_string();
+    let mut inputs: Vec<PathBuf> = path.into_iter().collect();
+    inputs.push(args.measured.clone());
+    let mut claimed = ClaimedFiles::claim(&args.outputs, &inputs)?;
+    let mut claim = |what, path: &Option<PathBuf>| {
+        path.as_ref()
+            .map(|path| claimed.claim_also(what, path))
+            .transpose()
+    };
+    let out = claim("model", &args.out)?;
+    let uncertain = claim("uncertainties", &args.uncertain_out)?;
+    let patterns: Vec<&str> = args.numbers.iter().map(String::as_str).collect();
+    let unknowns = Unknowns::matching(&model, &patterns)?;
+    let rows = rows(args, &files, &model, &name)?;
+    let gravity = model.mechanism.gravity();
+    let observations = observations(&rows, &gravity).map_err(|faults| of_table(&name, &faults))?;
+    let options = FitOptions {
+        theory: if args.small_loads {
+            Theory::SmallLoads
+        } else {
+            Theory::Loaded
+        },
+        robust: args.robust,
+        prior: prior(args)?,
+    };
+    let found = identification(&unknowns, &observations, &options)?;
+    if let Some(index) = out {
+        let identified = identified_model(&model, &found, &name)?;
+        let head = format!(
+            "# Numbers of {} identified from {name} by kinetostat {}.\n",
+            args.model,
+            env!("CARGO_PKG_VERSION")
+        );
+        claimed.fill(index, format!("{head}{}", identified.to_toml()?).as_bytes())?;
+    }
+    if let Some(index) = uncertain {
+        claimed.fill(index, uncertainty_file(&found, &name).as_bytes())?;
+    }
+    let answer = IdentifyAnswer {
+        schema: 1,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        model: model.name().to_owned(),
+        model_source: args.model.clone(),
+        measurements: name,
+        small_loads: args.small_loads,
+        robust: args.robust,
+        found,
+    };
+    let shown = Shown {
+        text: text::answer_text(&answer),
+        csv: table(&answer.found)?,
+        svg: picture(&answer).svg(),
+        failure: None,
+    };
+    claimed.finish(&shown, &answer)
+}
+
+fn prior(args: &IdentifyArgs) -> Answer<Option<f64>> {
+    match args.prior_percent {
+        Some(percent) if percent <= 0.0 => Err(ErrorCode::Value.failure(format!(
+            "--prior-percent is {percent}; a standard deviation above 0 is needed"
+        ))),
+        percent => Ok(percent.map(|p| 0.01 * p)),
+    }
+}
+
+fn rows(
+    args: &IdentifyArgs,
+    files: &InputFiles,
+    model: &Model,
+    name: &str,
+) -> Answer<Vec<MeasuredRow>> {
+    let deviation = 1e-3 * args.sigma_mm.unwrap_or(1e3 * DEVIATION);
+    if deviation <= 0.0 {
+        return Err(ErrorCode::Value.failure(format!(
+            "--sigma-mm is {}; a standard deviation above 0 is needed",
+            1e3 * deviation
+        )));
+    }
+    let text = files.text("table of measurements", &args.measured)?;
+    let mut rows = read_table(&text, &Axes::of(model)).map_err(|faults| of_table(name, &faults))?;
+    for row in &mut rows {
+        row.deviation.get_or_insert(deviation);
+    }
+    Ok(rows)
+}
+
+/// All faults of a table in one message.
+fn of_table(name: &str, faults: &[TableFault]) -> Failure {
+    let line = |fault: &TableFault| {
+        let column = fault
+            .column
+            .as_ref()
+            .map_or_else(String::new, |c| format!(", column {c}"));
+        let found = fault
+            .found
+            .as_ref()
+            .filter(|f| !f.is_empty())
+            .map_or_else(String::new, |f| format!(" ('{f}')"));
+        format!("{name}:{}{column}{found}: {}", fault.line, fault.message)
+    };
+    let lines: Vec<String> = faults.iter().map(line).collect();
+    let diagnostics = faults.iter().map(|fault| {
+        let mut diagnostic = Diagnostic::new(ErrorCode::FileForm, fault.message.clone());
+        diagnostic.location = Location {
+            file: Some(name.to_owned()),
+            line: Some(fault.line),
+            name: fault.column.clone(),
+            ..Location::default()
+        };
+        diagnostic.found = fault.found.clone();
+        diagnostic
+    });
+    ErrorCode::FileForm
+        .failure(lines.join("\n"))
+        .with_faults(diagnostics)
+}
+
+/// One row for each posture; residuals in standard deviations.
+fn table(found: &Identification) -> Answer<Vec<u8>> {
+    let head = [
+        "posture",
+        "readings",
+        "before_sigma",
+        "after_sigma",
+        "left_out_sigma",
+    ];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    rows.extend(found.residuals.iter().map(|r| {
+        let left_out = r.left_out.map_or_else(String::new, cell);
+        vec![
+            r.posture.clone(),
+            r.readings.to_string(),
+            cell(r.before),
+            cell(r.after),
+            left_out,
+        ]
+    }));
+    written(&rows)
+}
+
+/// Residuals of the postures before and after.
+fn picture(answer: &IdentifyAnswer) -> Plot {
+    let line =
+        |name: &str,
+         color,
+         of: &dyn Fn(&kinetostat_identification::PostureResiduals) -> Option<f64>| {
+            let numbered = (1..).zip(&answer.found.residuals);
+            let points = numbered.filter_map(|(i, r): (i32, _)| Some((f64::from(i), of(r)?)));
+            PlotLine::solid(name, color, points.collect())
+        };
+    Plot {
+        title: format!(
+            "{}: residuals of {} postures",
+            answer.model, answer.found.postures
+        ),
+        x_label: "posture, in the order of the table".to_owned(),
+        y_label: "root mean square, standard deviations of a reading".to_owned(),
+        lines: vec![
+            line("the model as it was", 1, &|r| Some(r.before)),
+            line("identified", 0, &|r| Some(r.after)),
+            line("identified from all other postures", 2, &|r| r.left_out),
+        ],
+        marks: Vec::new(),
+    }
+}

@@ -1,0 +1,95 @@
+//! The answer in words.
+
+use std::fmt::Write;
+
+use kinetostat_identification::{IdentifiedNumber, Knowledge};
+
+use crate::identify::IdentifyAnswer;
+use crate::ui::layout::{columns, item, wrapped};
+use crate::ui::numbers::{fixed, number};
+
+pub(crate) fn answer_text(a: &IdentifyAnswer) -> String {
+    let found = &a.found;
+    let mut out = wrapped(
+        &format!(
+            "{} ({}): {} numbers from {} readings in {} postures ({}{}{})",
+            a.model,
+            a.model_source,
+            found.numbers.len(),
+            found.readings,
+            found.postures,
+            a.measurements,
+            if a.small_loads { ", small loads" } else { "" },
+            if a.robust { ", robust" } else { "" },
+        ),
+        0,
+    );
+    let left_out = match found.rms_left_out_mm {
+        Some(rms) => format!(
+            "; {} mm in a posture that is not among those fitted",
+            fixed(rms, 4)
+        ),
+        None => String::new(),
+    };
+    out.push_str(&wrapped(
+        &format!(
+            "Of displacements of {} mm (root mean square) the model as it was leaves {} mm, the identified one {} mm{left_out}.",
+            fixed(found.rms_reading_mm, 4),
+            fixed(found.rms_before_mm, 4),
+            fixed(found.rms_after_mm, 4),
+        ),
+        0,
+    ));
+    out.push('\n');
+    out.push_str(&columns(&rows(found.numbers.iter()), 2));
+    if !found.findings.is_empty() {
+        out.push('\n');
+    }
+    for finding in &found.findings {
+        out.push_str(&item(&finding.to_string()));
+    }
+    out
+}
+
+fn rows<'a>(numbers: impl Iterator<Item = &'a IdentifiedNumber>) -> Vec<Vec<String>> {
+    let head = [
+        "number",
+        "unit",
+        "before",
+        "identified",
+        "+-",
+        "95 % between",
+        "and",
+        "",
+    ];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    rows.extend(numbers.map(|n| {
+        let bound = |k: usize| {
+            let bounds = n.interval.map(|b| b[k]);
+            bounds.map_or_else(String::new, |b| {
+                b.map_or_else(|| "rigid".to_owned(), |x| number(x, 4))
+            })
+        };
+        let mut percent = String::new();
+        if let Some(deviation) = n.deviation_percent {
+            let _ = write!(percent, "{} %", number(deviation, 2));
+        }
+        vec![
+            n.number.clone(),
+            n.unit.clone(),
+            number(n.before, 4),
+            n.identified
+                .map_or_else(|| "-".to_owned(), |x| number(x, 4)),
+            percent,
+            bound(0),
+            bound(1),
+            match n.knowledge {
+                Knowledge::Identified => "",
+                Knowledge::Weak => "weak",
+                _ => "not seen",
+            }
+            .to_owned(),
+        ]
+    }));
+    rows
+}

@@ -1,0 +1,234 @@
+//! Least squares with physical constraints: non-negative and positive semi-definite unknowns.
+//!
+//! Deflections are linear in compliances, and an elastic body stores energy: the compliance
+//! of a joint is not negative, the 6x6 compliance matrix of a link is positive semi-definite. [`ConeLeastSquares`] minimises
+//!
+//! ```text
+//! 1/2 |A x - y|^2 + 1/2 (x - x0)^T P (x - x0)
+//! ```
+//!
+//! over the unknowns that meet these constraints. The rows of `A` and `y` are already divided by the standard deviation of
+//! their measurement, therefore `|A x - y|^2` is chi-squared. The problem is convex: every optimum is a global one.
+//!
+//! # Method
+//!
+//! 1. *Scaling.* Metres and radians differ by factors of 1e3 to 1e6. Unknowns are measured in nominal sizes, or in sizes that
+//!    give the columns of `A` unit length. A matrix is scaled from both sides, `X = D Xs D`, which keeps it semi-definite.
+//! 2. *Reduction.* Householder reflections turn all rows into an upper triangle of the size of the unknowns, once.
+//! 3. *Unconstrained answer.* If it meets the constraints, it is the result.
+//! 4. *Interior point.* Otherwise Newton's method follows the minimisers of `objective - mu log det X` for decreasing `mu`, in
+//!    the primal-dual form of Nesterov and Todd (1997) with the predictor and corrector of Mehrotra (1992), see Vandenberghe,
+//!    *The CVXOPT linear and quadratic cone program solvers* (2010). The duality gap is `mu` times the sum of the block orders.
+//!    Every step is a least-squares problem, solved by reflections; normal equations would lose half of the digits.
+//!
+//! # Combinations that the data do not see
+//!
+//! If the rows (and the prior) leave some combinations of unknowns undetermined, infinitely many answers fit equally well, and the
+//! barrier alone has no minimum. The result is then the answer nearest to the reference `x0` (zero if none is given), measured
+//! in scaled unknowns. It is computed by adding `1/2 w |N^T (x - x0)|^2`, where the columns of `N` span the unseen combinations.
+//! The weight `w` is so small that the fit does not suffer: [`ConeSolution::penalty`] is at most about 1e-8 of the objective, or
+//! 1e-20 of `|y|^2` if the data can be fitted exactly. [`ConeSolution::rank`] and [`ConeSolution::unseen`] report the deficiency.
+//!
+//! An optimum may also lie at infinity: if noise makes a seen diagonal entry of a matrix zero, seen off-diagonal entries of the same
+//! row need infinite diagonal entries elsewhere, and those may be unseen. The penalty keeps the answer finite, but large, and
+//! its share of the objective is larger than usual. A prior is the remedy.
+
+mod error;
+mod newton;
+mod ordering;
+mod reduction;
+mod reflection;
+mod scaling;
+mod solution;
+mod symmetric;
+
+use nalgebra::{DMatrix, DVector};
+
+pub use error::ConeError;
+pub use solution::{BlockState, ConeSolution, KktResidual};
+
+use newton::Optimum;
+use reduction::Reduced;
+
+/// Limit of the optimisations with other weights of the penalty.
+const PENALTY_ROUNDS: usize = 4;
+
+/// Physical constraint on one unknown, or on the unknowns that form a symmetric matrix.
+///
+/// A column belongs to one constraint at most. Columns without a constraint are free.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Constraint {
+    /// The unknown of this column is not negative, such as the compliance of a joint.
+    NonNegative(usize),
+    /// The unknowns of these columns form a positive semi-definite symmetric matrix, such as the compliance of a link.
+    ///
+    /// They are the upper triangle of an n x n matrix, row by row: (0,0), (0,1), ..., (0,n-1), (1,1), ...; n(n+1)/2 columns, 21
+    /// for a link. An off-diagonal unknown stands for both entries (i,j) and (j,i).
+    PositiveSemidefinite(Vec<usize>),
+}
+
+/// Linear least-squares problem with physical constraints.
+#[derive(Clone, Debug)]
+pub struct ConeLeastSquares<'a> {
+    matrix: &'a DMatrix<f64>,
+    data: &'a DVector<f64>,
+    constraints: &'a [Constraint],
+    reference: Option<&'a DVector<f64>>,
+    precision: Option<&'a DMatrix<f64>>,
+    nominal: Option<&'a [f64]>,
+}
+
+impl<'a> ConeLeastSquares<'a> {
+    /// Problem without prior; `matrix` N x p and `data` N have rows divided by the standard deviations of the measurements.
+    #[must_use]
+    pub fn new(
+        matrix: &'a DMatrix<f64>,
+        data: &'a DVector<f64>,
+        constraints: &'a [Constraint],
+    ) -> Self {
+        Self {
+            matrix,
+            data,
+            constraints,
+            reference: None,
+            precision: None,
+            nominal: None,
+        }
+    }
+
+    /// Sets the reference `x0` (p), to which combinations that the data do not see are drawn. It need not meet the constraints.
+    #[must_use]
+    pub fn reference(mut self, reference: &'a DVector<f64>) -> Self {
+        self.reference = Some(reference);
+        self
+    }
+
+    /// Sets a prior: mean `x0` (p) and precision `P` (p x p, inverse covariance, symmetric positive semi-definite).
+    #[must_use]
+    pub fn prior(mut self, mean: &'a DVector<f64>, precision: &'a DMatrix<f64>) -> Self {
+        self.reference = Some(mean);
+        self.precision = Some(precision);
+        self
+    }
+
+    /// Sets nominal sizes of the unknowns (p, positive, units of the unknowns); for a matrix only those of its diagonal matter.
+    ///
+    /// Without them columns are scaled to unit length, which turns a column of rounding errors into a full one unless it is
+    /// shorter than 1e-13 of the longest. Give them if loads may have no effect on an unknown.
+    #[must_use]
+    pub fn nominal_sizes(mut self, sizes: &'a [f64]) -> Self {
+        self.nominal = Some(sizes);
+        self
+    }
+
+    /// Solves the problem.
+    ///
+    /// # Errors
+    /// [`ConeError`] for sizes that do not fit, numbers that are not finite, or a duality gap above 1e-7 of the objective.
+    pub fn solve(&self) -> Result<ConeSolution, ConeError> {
+        self.check()?;
+        let mut reduced = Reduced::new(self)?;
+        if reduced.is_feasible(&reduced.unconstrained) {
+            let u = reduced.unconstrained.clone();
+            return Ok(solution::unscale(self, &reduced, Optimum::interior(u)));
+        }
+        let mut optimum = newton::minimise(&reduced)?;
+        for _ in 0..PENALTY_ROUNDS {
+            let Some(adapted) = reduced.adapted(&optimum.u) else {
+                break;
+            };
+            let Ok(mut next) = newton::minimise(&adapted) else {
+                break;
+            };
+            next.steps += optimum.steps;
+            (reduced, optimum) = (adapted, next);
+        }
+        Ok(solution::unscale(self, &reduced, optimum))
+    }
+
+    fn check(&self) -> Result<(), ConeError> {
+        let (rows, columns) = self.matrix.shape();
+        if rows == 0 || columns == 0 {
+            return Err(ConeError::Empty { rows, columns });
+        }
+        let vector = |what, values: &[f64], expected| {
+            if values.len() != expected {
+                let found = values.len();
+                return Err(ConeError::Size {
+                    what,
+                    found,
+                    expected,
+                });
+            }
+            let finite = values.iter().all(|v| v.is_finite());
+            finite.then_some(()).ok_or(ConeError::NotFinite(what))
+        };
+        vector("the matrix", self.matrix.as_slice(), rows * columns)?;
+        vector("the data vector", self.data.as_slice(), rows)?;
+        if let Some(x0) = self.reference {
+            vector("the reference", x0.as_slice(), columns)?;
+        }
+        if let Some(p) = self.precision {
+            vector("the prior precision", p.as_slice(), columns * columns)?;
+            if !p.is_square() || (p - p.transpose()).amax() > 1e-12 * p.amax() {
+                return Err(ConeError::Precision);
+            }
+        }
+        if let Some(sizes) = self.nominal {
+            vector("the list of nominal sizes", sizes, columns)?;
+            if let Some(column) = sizes.iter().position(|&s| s <= 0.0) {
+                let size = sizes[column];
+                return Err(ConeError::NominalSize { column, size });
+            }
+        }
+        let mut used = vec![false; columns];
+        for constraint in self.constraints {
+            if constraint.order().is_none() {
+                return Err(ConeError::Triangle(constraint.columns().len()));
+            }
+            for &column in constraint.columns() {
+                if column >= columns {
+                    return Err(ConeError::ColumnOutOfRange { column, columns });
+                }
+                if std::mem::replace(&mut used[column], true) {
+                    return Err(ConeError::ColumnTwice(column));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Constraint {
+    /// Columns of the constrained unknowns.
+    #[must_use]
+    pub fn columns(&self) -> &[usize] {
+        match self {
+            Self::NonNegative(column) => std::slice::from_ref(column),
+            Self::PositiveSemidefinite(columns) => columns,
+        }
+    }
+
+    /// True if the unknowns meet the constraint.
+    #[must_use]
+    pub fn holds(&self, unknowns: &DVector<f64>) -> bool {
+        let own: Vec<f64> = self.columns().iter().map(|c| unknowns[*c]).collect();
+        let n = self.order().unwrap_or(0);
+        let entry = |i: usize, k: usize| own[symmetric::triangle_index(n, i.min(k), i.max(k))];
+        if (0..n).any(|i| entry(i, i) <= 0.0) {
+            return false;
+        }
+        // Metres and radians are compared alike.
+        let scaled = DMatrix::from_fn(n, n, |i, k| {
+            entry(i, k) / (entry(i, i) * entry(k, k)).sqrt()
+        });
+        scaled.cholesky().is_some()
+    }
+
+    /// Order n of the constrained n x n matrix, 1 for a scalar; `None` if the number of columns is not n(n+1)/2.
+    #[must_use]
+    pub fn order(&self) -> Option<usize> {
+        let columns = self.columns().len();
+        (1..=columns).find(|n| n * (n + 1) / 2 == columns)
+    }
+}
