@@ -287,6 +287,24 @@ True
 >>> found["rank"], len(found["stiffness_n_m_rad"])
 (6, 6)
 """,
+    "identify": """
+>>> import tempfile
+>>> import kinetostat as ks
+>>> with tempfile.TemporaryDirectory() as folder:
+...     table = folder + "/pulls.csv"
+...     plan = ks.commands.plan_measurement("kuka_kr270_like", pull_n=1000, count=6, candidates=30, csv=table)
+...     text = open(table).read().replace(",,,,", ",0.1,0.2,0.3,")
+...     _ = open(table, "w").write(text)
+...     found = ks.commands.identify("kuka_kr270_like", measured=table)
+>>> found["readings"], len(found["numbers"]), found["rank"]
+(18, 6, 6)
+""",
+    "plan_measurement": """
+>>> import kinetostat as ks
+>>> plan = ks.commands.plan_measurement("kuka_kr270_like", pull_n=1000, count=6, candidates=30)
+>>> len(plan["measurements"]), 0 < plan["efficiency"] <= 1
+(6, True)
+""",
     "tolerance": _with_file(
         "uncertain.toml",
         'schema = 1\n[[uncertain]]\nparameter = "chain.leg.q2.length_mm"\nnormal = 0.02\n',

@@ -40,6 +40,7 @@ mod modes;
 mod options;
 mod place;
 mod placing;
+mod plan_measurement;
 mod program;
 mod reproduce;
 mod schema;
@@ -240,6 +241,7 @@ fn run(command: Command, given: &Given) -> Answer<()> {
         Command::Dialect(args) => dialect::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Identify(args) => identify::run(&args),
+        Command::PlanMeasurement(args) => plan_measurement::run(&args),
         Command::Import(args) => import::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),
         Command::Model(args) => model::run(&args),

@@ -35,6 +35,15 @@ pub struct Reading {
     pub deviation: f64,
 }
 
+/// Whether a load was being put on or taken off when readings were taken: friction holds the joints back either way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Branch {
+    /// The load is taken off.
+    pub unloading: bool,
+    /// The whole load, which decides the directions of the torques.
+    pub whole: TestLoad,
+}
+
 /// Readings in one posture under one load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
@@ -44,6 +53,8 @@ pub struct Observation {
     pub commands: Vec<f64>,
     /// The load.
     pub load: TestLoad,
+    /// Side of a loop of loading and unloading; none where nobody knows.
+    pub branch: Option<Branch>,
     /// The readings.
     pub readings: Vec<Reading>,
 }

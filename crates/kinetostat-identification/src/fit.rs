@@ -1,10 +1,11 @@
 //! The fit: Gauss-Newton steps, each a linear least squares, from the model's own numbers.
 
+use kinetostat::number::larger;
 use nalgebra::{DMatrix, DVector};
 
 use crate::error::IdentificationError;
 use crate::experiment::{Observation, by_posture};
-use crate::least_squares::{LinearFit, PostureRows, Start, fit};
+use crate::least_squares::{HUBER, LinearFit, PostureRows, Start, fit};
 use crate::prediction::{Prediction, Theory, predict};
 use crate::unknown::Unknowns;
 
@@ -41,6 +42,9 @@ const MOST_STEPS: usize = 50;
 /// Largest change of a number, relative to its size, at which the fit has settled.
 const SETTLED: f64 = 1e-10;
 
+/// Largest change of a reading, in its standard deviations, at which the fit has settled.
+const UNNOTICED: f64 = 1e-8;
+
 /// Identifies the unknowns from the readings.
 ///
 /// # Errors
@@ -58,50 +62,97 @@ pub fn identify(
     let mut values = unknowns.nominal();
     let nominal = values.clone();
     let constraints = unknowns.constraints();
-    let mut before = None;
+    let prior = options.prior.map(|share| belief(&nominal, &sizes, share));
+    let start = Start {
+        from: &nominal,
+        sizes: &sizes,
+        constraints: &constraints,
+    };
+    let rows_at = |values: &DVector<f64>| -> Result<Vec<PostureRows>, IdentificationError> {
+        let predictions = predict(unknowns, values, observations, options.theory)?;
+        let own = groups.iter();
+        Ok(own
+            .map(|(_, members)| rows(members, observations, &predictions, values))
+            .collect())
+    };
+    let misfit = |postures: &[PostureRows], values: &DVector<f64>| -> f64 {
+        let all = postures.iter().chain(&prior);
+        all.map(|p| loss(&(&p.values - &p.rows * values), options.robust))
+            .sum()
+    };
+    let mut postures = rows_at(&values)?;
+    let residuals = postures.iter().map(|p| &p.values - &p.rows * &values);
+    let before: Vec<DVector<f64>> = residuals.collect();
     let mut change = f64::NAN;
     for steps in 1..=MOST_STEPS {
-        let predictions = predict(unknowns, &values, observations, options.theory)?;
-        let postures: Vec<PostureRows> = (groups.iter())
-            .map(|(_, members)| rows(members, observations, &predictions, &values))
-            .collect();
-        let before = before.get_or_insert_with(|| {
-            postures
-                .iter()
-                .map(|p| &p.values - &p.rows * &values)
-                .collect::<Vec<_>>()
-        });
-        let prior = options.prior.map(|share| belief(&nominal, &sizes, share));
-        let with_prior: Vec<PostureRows> = postures.iter().cloned().chain(prior).collect();
-        let start = Start {
-            from: &nominal,
-            sizes: &sizes,
-            constraints: &constraints,
-        };
+        let with_prior: Vec<PostureRows> = postures.iter().chain(&prior).cloned().collect();
         let mut linear = fit(&with_prior, &start, options.robust)?;
         let next = unknowns.buildable(&linear.estimate);
         change = (&next - &values).component_div(&sizes).amax();
-        let settled = change <= SETTLED * next.component_div(&sizes).amax().max(1.0);
-        values = next;
-        if settled {
-            linear.estimate = values;
+        let step = &next - &values;
+        // What the readings do not see may go on changing in its last digits.
+        let effects = postures.iter().map(|p| (&p.rows * &step).amax());
+        let effect = effects.fold(0.0, larger);
+        if change <= SETTLED * next.component_div(&sizes).amax().max(1.0) || effect <= UNNOTICED {
+            linear.estimate = next;
+            let readings = groups
+                .iter()
+                .map(|(_, members)| readings(members, observations));
             return Ok(Fit {
                 linear,
                 postures,
                 names: groups.iter().map(|(name, _)| (*name).to_owned()).collect(),
-                before: before.clone(),
-                readings: groups
-                    .iter()
-                    .map(|(_, members)| readings(members, observations))
-                    .collect(),
+                before,
+                readings: readings.collect(),
                 steps,
             });
         }
+        (values, postures) = downhill(&values, &next, &postures, &rows_at, &misfit)?;
     }
     Err(IdentificationError::NotConverged {
         steps: MOST_STEPS,
         change,
     })
+}
+
+/// Halvings of a step at most: where none fits better, the last one is taken, and the change tells.
+const MOST_HALVINGS: usize = 12;
+
+/// The whole step, or the first of its halves that fits better: where numbers are nearly interchangeable, a whole step leads beyond the
+/// reach of the derivatives, or to a machine without an equilibrium.
+fn downhill(
+    from: &DVector<f64>,
+    to: &DVector<f64>,
+    postures: &[PostureRows],
+    rows_at: &dyn Fn(&DVector<f64>) -> Result<Vec<PostureRows>, IdentificationError>,
+    misfit: &dyn Fn(&[PostureRows], &DVector<f64>) -> f64,
+) -> Result<(DVector<f64>, Vec<PostureRows>), IdentificationError> {
+    let now = misfit(postures, from);
+    let mut values = to.clone();
+    for halving in 0.. {
+        let found = rows_at(&values);
+        let is_last = halving == MOST_HALVINGS;
+        match found {
+            Err(error) if is_last => return Err(error),
+            Err(_) => {}
+            // Rounding near the optimum is no worse fit.
+            Ok(found) if is_last || misfit(&found, &values) <= now * (1.0 + 1e-9) + 1e-12 => {
+                return Ok((values, found));
+            }
+            Ok(_) => {}
+        }
+        values = (values + from) * 0.5;
+    }
+    Ok((values, postures.to_vec()))
+}
+
+/// Squares of the residuals; of those far out (Huber) their size.
+fn loss(residuals: &DVector<f64>, robust: bool) -> f64 {
+    let one = |r: f64| match robust && r.abs() > HUBER {
+        true => HUBER * (2.0 * r.abs() - HUBER),
+        false => r * r,
+    };
+    residuals.iter().map(|r| one(*r)).sum()
 }
 
 /// Rows that say what is believed: each unknown is what the model says, to a share of its size.

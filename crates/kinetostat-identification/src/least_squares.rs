@@ -37,6 +37,8 @@ pub struct LinearFit {
     /// `(A^T A)^-1` on the combinations that the rows see: the covariance if the stated standard deviations are right and
     /// all readings are independent.
     pub normal_inverse: DMatrix<f64>,
+    /// The same with numbers at their bound held there: what tells how a posture is predicted from others.
+    pub held_inverse: DMatrix<f64>,
     /// Number of combinations of unknowns that the rows see.
     pub rank: usize,
     /// Readings less what the estimate says of them, posture by posture, in standard deviations.
@@ -48,6 +50,9 @@ pub struct LinearFit {
     /// Unknowns at zero, their bound, and first unknowns of matrices with a load that does not deflect them.
     pub at_bound: Vec<usize>,
 }
+
+/// Scatter about the fit, in stated deviations, above which the stated ones are not believed.
+pub const SCATTER: f64 = 1.5;
 
 /// How far a row may be from the fit before it counts less, in standard deviations (Huber 1964): 95 % efficient where there is no
 /// outlier.
@@ -113,9 +118,10 @@ pub fn fit(
     let mut found = weighted(postures, &weights, problem)?;
     // Weights contract by a constant factor; a hundred turns are a tenth of those needed for the last digit at worst.
     for _ in 0..if robust { 1000 } else { 0 } {
+        let far = HUBER * scatter(&found.residuals);
         for (weight, residual) in weights.iter_mut().zip(&found.residuals) {
             for (w, r) in weight.iter_mut().zip(residual.iter()) {
-                *w = (HUBER / r.abs()).min(1.0);
+                *w = (far / r.abs()).min(1.0);
             }
         }
         let next = weighted(postures, &weights, problem)?;
@@ -128,6 +134,23 @@ pub fn fit(
         }
     }
     Ok(found)
+}
+
+/// Scatter of most residuals in stated standard deviations: by their median, which outliers do not change; 1 unless it is clearly more.
+fn scatter(residuals: &[DVector<f64>]) -> f64 {
+    let mut sizes: Vec<f64> = residuals
+        .iter()
+        .flat_map(|r| r.iter().map(|x| x.abs()))
+        .collect();
+    sizes.sort_by(f64::total_cmp);
+    // The median of the normal distribution's sizes.
+    let median = sizes
+        .get(sizes.len() / 2)
+        .map_or(1.0, |m| m / 0.674_489_750_196);
+    match median > SCATTER {
+        true => median,
+        false => 1.0,
+    }
 }
 
 fn weighted(
@@ -146,7 +169,8 @@ fn weighted(
     let mut scaled = DMatrix::from_fn(triangle.nrows(), unknowns, |i, j| {
         triangle[(i, j)] * sizes[j]
     });
-    let (mut inverse, rank) = pseudo_inverse(&scaled);
+    let (inverse, rank) = pseudo_inverse(&scaled);
+    let mut held = inverse.clone();
     let mut estimate = from + (&inverse * left).component_mul(sizes);
     let mut at_bound = Vec::new();
     if !constraints.iter().all(|c| c.holds(&estimate)) {
@@ -158,18 +182,21 @@ fn weighted(
             if state.at_bound > 0 {
                 at_bound.push(constraint.columns()[0]);
             }
-            // A number at its bound is known as well as the bound is.
             if let (Constraint::NonNegative(column), true) = (constraint, state.at_bound > 0) {
                 scaled.column_mut(*column).fill(0.0);
             }
         }
-        (inverse, _) = pseudo_inverse(&scaled);
+        (held, _) = pseudo_inverse(&scaled);
     }
-    let normal = &inverse * inverse.transpose();
+    let normal = |inverse: &DMatrix<f64>| {
+        let scaled = inverse * inverse.transpose();
+        DMatrix::from_fn(unknowns, unknowns, |i, j| {
+            scaled[(i, j)] * sizes[i] * sizes[j]
+        })
+    };
     Ok(LinearFit {
-        normal_inverse: DMatrix::from_fn(unknowns, unknowns, |i, j| {
-            normal[(i, j)] * sizes[i] * sizes[j]
-        }),
+        normal_inverse: normal(&inverse),
+        held_inverse: normal(&held),
         rank,
         residuals: postures
             .iter()
@@ -253,13 +280,20 @@ impl LinearFit {
     /// what the posture would show.
     #[must_use]
     pub fn left_out(&self, postures: &[PostureRows]) -> Vec<Option<DVector<f64>>> {
-        let each = postures.iter().zip(&self.residuals);
-        each.map(|(posture, residual)| {
+        let each = postures.iter().zip(&self.residuals).zip(&self.weights);
+        each.map(|((posture, residual), weights)| {
             let n = residual.len();
-            let hat = &posture.rows * &self.normal_inverse * posture.rows.transpose();
-            let rest = DMatrix::identity(n, n) - hat;
+            let root = weights.map(f64::sqrt);
+            let rows = DMatrix::from_fn(n, posture.rows.ncols(), |i, j| {
+                root[i] * posture.rows[(i, j)]
+            });
+            let rest = DMatrix::identity(n, n) - &rows * &self.held_inverse * rows.transpose();
             let least = rest.symmetric_eigenvalues().min();
-            (least > 1e-8).then(|| rest.lu().solve(residual)).flatten()
+            let weighted = rest
+                .lu()
+                .solve(&residual.component_mul(&root))
+                .filter(|_| least > 1e-8)?;
+            Some(weighted.component_div(&root))
         })
         .collect()
     }

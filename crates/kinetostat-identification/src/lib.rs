@@ -19,6 +19,7 @@ mod experiment;
 mod fit;
 mod identifiability;
 mod least_squares;
+mod plan;
 mod prediction;
 mod result;
 mod table;
@@ -27,17 +28,18 @@ mod unknown;
 pub use axes::Axes;
 pub use cone::{BlockState, ConeError, ConeLeastSquares, ConeSolution, Constraint, KktResidual};
 pub use error::IdentificationError;
-pub use experiment::{Observation, Reading, ReadingOf, TestLoad};
+pub use experiment::{Branch, Observation, Reading, ReadingOf, TestLoad};
 pub use fit::{Fit, FitOptions, identify};
 pub use identifiability::{Combination, Identifiability, Knowledge, WEAK};
 pub use least_squares::{HUBER, LinearFit, PostureRows, Start, UNSEEN, fit as least_squares};
+pub use plan::{Plan, PlanError, PlanTask, PlannedMeasurement, Purpose, Room, plan};
 pub use prediction::{Prediction, Theory, predict};
 pub use result::{
     Finding, Identification, IdentifiedNumber, PostureResiduals, identification, identified_model,
     uncertainty_file,
 };
 pub use table::{
-    COLUMNS, DEVIATION, MOST_FAULTS, MeasuredRow, Read, TURN_DEVIATION, TableFault, observations,
-    read_table,
+    COLUMNS, DEVIATION, InstrumentFrame, MOST_FAULTS, MeasuredRow, NoFrame, Read, TURN_DEVIATION,
+    TableFault, into_base, observations, read_table,
 };
 pub use unknown::{Form, Unknown, Unknowns};

@@ -21,7 +21,7 @@ use rayon::prelude::*;
 
 use crate::error::IdentificationError;
 use crate::experiment::{Observation, Reading, ReadingOf};
-use crate::unknown::{Change, SpringChange, Unknowns};
+use crate::unknown::{Change, SpringChange, Unknowns, drive_coordinates};
 
 /// Theory by which readings are predicted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,9 +64,13 @@ pub fn predict(
         mechanism: &mechanism,
         changes: &changes,
     };
-    let each = observations.par_iter().map(|observation| match theory {
-        Theory::SmallLoads => machine.small(observation),
-        Theory::Loaded => machine.loaded(observation),
+    let each = observations.par_iter().map(|observation| {
+        let mut found = match theory {
+            Theory::SmallLoads => machine.small(observation),
+            Theory::Loaded => machine.loaded(observation),
+        }?;
+        machine.add_friction(observation, values, &mut found)?;
+        Ok(found)
     });
     each.collect()
 }
@@ -106,6 +110,50 @@ impl Machine<'_> {
             values,
             derivatives,
         })
+    }
+
+    /// Friction holds a drive back by `b` against the change of its torque: `theta = c tau - b sign(d tau)`.
+    fn add_friction(
+        &self,
+        observation: &Observation,
+        values: &DVector<f64>,
+        into: &mut Prediction,
+    ) -> Result<(), IdentificationError> {
+        let is_friction = |c: &Change| matches!(c, Change::Friction);
+        let (Some(branch), Some(first)) = (
+            observation.branch,
+            self.changes.iter().position(is_friction),
+        ) else {
+            return Ok(());
+        };
+        let free = || IdentificationError::Free {
+            posture: observation.posture.clone(),
+        };
+        let posture = posture_of(self.mechanism, observation)?.as_drawn();
+        let mut tangent = posture.linearised_at_rest();
+        let torque = |motion: &MachineMotion, (limb, coordinate): (usize, usize)| {
+            let chain = &posture.mechanism().limbs()[limb].actual;
+            let spring = chain.springs().iter().find(|s| s.first == coordinate);
+            let stiffness =
+                spring.map_or(0.0, |s| s.stiffness_at(&chain.home_coordinates())[(0, 0)]);
+            stiffness * motion.coordinates[limb][coordinate]
+        };
+        let whole = tangent
+            .under(&Wrench::new(branch.whole.force, branch.whole.moment))
+            .ok_or_else(free)?;
+        let grows = if branch.unloading { -1.0 } else { 1.0 };
+        let drives = drive_coordinates(self.mechanism);
+        for (i, reading) in observation.readings.iter().enumerate() {
+            let arm = posture.target().rotation * (reading.marker - observation.load.at);
+            let virtual_motion = tangent.under(&wrench_of(reading, &arm)).ok_or_else(free)?;
+            let drives = drives.iter().enumerate();
+            for (k, at) in drives.filter_map(|(k, (_, at))| Some((first + k, (*at)?))) {
+                let derivative = -grows * torque(&whole, at).signum() * torque(&virtual_motion, at);
+                into.derivatives[(i, k)] = derivative;
+                into.values[i] += derivative * values[k];
+            }
+        }
+        Ok(())
     }
 
     fn loaded(&self, observation: &Observation) -> Result<Prediction, IdentificationError> {
@@ -180,6 +228,7 @@ impl Machine<'_> {
                         .for_each(|s| s.add_residual(posture, at, &mut residual));
                     residual
                 }
+                Change::Friction => return Ok(Vector6::zeros()),
                 Change::Machine { more, less, step } => {
                     let of = |m: &Mechanism| {
                         let posture = posture_of(m, observation)?;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use kinetostat_model::Model;
+use kinetostat_model::{Model, NumberEdit};
 use nalgebra::{DMatrix, DVector};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -11,7 +11,7 @@ use crate::error::IdentificationError;
 use crate::experiment::Observation;
 use crate::fit::{Fit, FitOptions, identify};
 use crate::identifiability::{Identifiability, Knowledge};
-use crate::least_squares::LinearFit;
+use crate::least_squares::{LinearFit, SCATTER};
 use crate::unknown::{Form, Unknown, Unknowns};
 
 /// A number of the model as it was identified.
@@ -29,8 +29,12 @@ pub struct IdentifiedNumber {
     pub deviation_percent: Option<f64>,
     /// Bounds with a confidence of 95 %; the upper one of a stiffness is null where it may be rigid.
     pub interval: Option<[Option<f64>; 2]>,
-    /// Its compliance is zero: the readings do not tell it from rigid.
+    /// It is zero, its bound: the compliance of a spring that the readings do not tell from rigid.
     pub at_bound: bool,
+    /// A number of the model file; friction is none.
+    pub is_of_model: bool,
+    /// A spring that acts as a load beside the joints (a gravity compensator).
+    pub acts_beside_joints: bool,
     /// How well the readings know it.
     pub knowledge: Knowledge,
     /// The combination that is known where the number alone is not.
@@ -71,6 +75,11 @@ pub enum Finding {
         number: String,
         /// Its standard deviation, percent.
         deviation_percent: f64,
+    },
+    /// A spring beside the joints came out without stiffness.
+    Absent {
+        /// Path of the number.
+        number: String,
     },
     /// A compliance came out at zero, its bound: the readings do not tell it from rigid.
     Rigid {
@@ -118,6 +127,10 @@ impl fmt::Display for Finding {
             } => write!(
                 f,
                 "{number}: weakly known, to {deviation_percent:.0} %; load the machine so that more of the deflection comes from it, or read more often"
+            ),
+            Self::Absent { number } => write!(
+                f,
+                "{number}: the readings do not tell it from none; the force of such a spring shows in absolute positions and torques, hardly in how stiff the machine is"
             ),
             Self::Rigid { number } => write!(
                 f,
@@ -199,17 +212,17 @@ pub fn identification(
             let number = number_of(
                 unknown,
                 fit.linear.estimate[i],
-                in_file[i],
+                in_file.get(i).copied().unwrap_or(fit.linear.estimate[i]),
                 deviations[i],
                 known,
             );
             let at_bound = fit.linear.at_bound.contains(&i);
-            let is_rigid = at_bound && unknown.form == Form::Compliance;
+            let is_zero = at_bound && !matches!(unknown.form, Form::MatrixEntry(..));
             IdentifiedNumber {
                 at_bound,
                 known_combination: combination,
-                deviation_percent: number.deviation_percent.filter(|_| !is_rigid),
-                interval: number.interval.filter(|_| !is_rigid),
+                deviation_percent: number.deviation_percent.filter(|_| !is_zero),
+                interval: number.interval.filter(|_| !is_zero),
                 ..number
             }
         })
@@ -230,7 +243,7 @@ pub fn identification(
     let estimate = &fit.linear.estimate;
     Ok(Identification {
         postures: fit.names.len(),
-        readings: fit.linear.readings,
+        readings: fit.postures.iter().map(|p| p.values.len()).sum(),
         rank: fit.linear.rank,
         degrees_of_freedom: fit.linear.degrees_of_freedom(),
         sigma_factor: fit.linear.sigma_factor(),
@@ -250,8 +263,8 @@ pub fn identification(
     })
 }
 
-/// The covariance by postures where there are enough of them, else that of independent readings that scatter as about the fit; never
-/// below the latter.
+/// The covariance by postures where there are more of them than numbers, else that of independent readings that scatter as about the
+/// fit.
 fn covariance(fit: &Fit) -> DMatrix<f64> {
     let factor = fit.linear.sigma_factor().max(1.0);
     let independent = &fit.linear.normal_inverse * (factor * factor);
@@ -315,6 +328,8 @@ fn number_of(
             .filter(|x| x.is_finite()),
         interval: (!unseen && !is_entry).then_some(interval),
         at_bound: false,
+        is_of_model: unknown.form != Form::Friction,
+        acts_beside_joints: unknown.form == Form::Parallel,
         knowledge,
         known_combination: None,
     }
@@ -343,8 +358,6 @@ fn combination_of(unknown: usize, seen: &Identifiability, unknowns: &Unknowns) -
 
 /// Residual of a posture against those of the median above which it is named.
 const FAR: f64 = 4.0;
-/// Scatter about the fit, in stated deviations, above which it is named.
-const SCATTER: f64 = 1.5;
 
 fn findings(
     numbers: &[IdentifiedNumber],
@@ -363,6 +376,9 @@ fn findings(
                 number: name(),
                 known: number.known_combination.clone(),
             }),
+            _ if number.at_bound && number.acts_beside_joints => {
+                out.push(Finding::Absent { number: name() })
+            }
             _ if number.at_bound => out.push(Finding::Rigid { number: name() }),
             (Knowledge::Weak, _, Some(deviation_percent)) => out.push(Finding::Weak {
                 number: name(),
@@ -437,39 +453,50 @@ pub fn identified_model(
     found: &Identification,
     source: &str,
 ) -> Result<Model, IdentificationError> {
-    let changes: Vec<(&str, f64)> = found
-        .numbers
-        .iter()
-        .filter_map(|n| Some((n.number.as_str(), n.identified?)))
-        .collect();
-    let sources: Vec<(&str, String)> = found
-        .numbers
-        .iter()
-        .map(|n| {
-            let known = match n.deviation_percent {
-                Some(percent) => {
-                    format!("identified from {source}, standard deviation {percent:.2} %")
-                }
-                None => format!("not seen in {source}: as it was"),
-            };
-            (n.number.as_str(), known)
+    let edit = |n: &IdentifiedNumber| {
+        if !n.is_of_model {
+            return None;
+        }
+        let words = match n.deviation_percent {
+            Some(percent) => format!("identified from {source}, standard deviation {percent:.2} %"),
+            None if n.at_bound => format!("identified from {source}: not told from rigid"),
+            None => return None,
+        };
+        Some(NumberEdit {
+            path: n.number.clone(),
+            value: n.identified?,
+            source: Some(words),
         })
-        .collect();
-    Ok(model.with_parameters(&changes)?.with_sources(&sources)?)
+    };
+    let edits: Vec<NumberEdit> = found.numbers.iter().filter_map(edit).collect();
+    Ok(model.edited(&edits)?)
 }
+
+/// Relative standard deviation beyond which a normal distribution has machines with negative stiffness among thousands.
+const WIDEST: f64 = 0.24;
 
 /// The uncertainty of the identified numbers as a file for `tolerance` and for bands of compensated programs.
 #[must_use]
 pub fn uncertainty_file(found: &Identification, source: &str) -> String {
-    let known: Vec<usize> = (0..found.numbers.len())
+    let is_wide = |i: usize| found.relative_covariance[i][i].max(0.0).sqrt() > WIDEST;
+    let seen: Vec<usize> = (0..found.numbers.len())
         .filter(|i| {
-            found.numbers[*i].knowledge != Knowledge::Unseen
+            found.numbers[*i].is_of_model
+                && found.numbers[*i].knowledge != Knowledge::Unseen
                 && found.numbers[*i].identified.is_some()
         })
         .collect();
+    let (wide, known): (Vec<usize>, Vec<usize>) = seen.into_iter().partition(|i| is_wide(*i));
     let mut out = format!(
         "# Standard deviations and correlations of the numbers that were identified from {source}.\nschema = 1\n"
     );
+    for i in wide {
+        let percent = 100.0 * found.relative_covariance[i][i].sqrt();
+        out += &format!(
+            "# {} is known to {percent:.0} % only: no normal distribution of a stiffness is that wide, so it does not vary here.\n",
+            found.numbers[i].number
+        );
+    }
     for i in &known {
         let number = &found.numbers[*i];
         let deviation = number.identified.unwrap_or(0.0).abs()

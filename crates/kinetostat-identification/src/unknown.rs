@@ -4,7 +4,7 @@
 //! readings would stand among the regressors. So a stiffness `k` is identified as `c = 1/k`, a 6 x 6 stiffness as the 21 numbers of
 //! its inverse, and the factor of a section as its reciprocal. Lengths and angles are identified as they are.
 
-use kinetostat::Mechanism;
+use kinetostat::{Mechanism, MotionKind};
 use kinetostat_model::{Model, Parameter, ParameterKind, ParametricModel};
 use nalgebra::{DMatrix, DVector, Matrix6};
 
@@ -25,8 +25,13 @@ pub enum Form {
     Compliance,
     /// Row and column of a compliance matrix whose inverse stands in the model.
     MatrixEntry(usize, usize),
+    /// The stiffness itself, of a spring that acts as a load beside the joints (a gravity compensator): deflections are nearly linear in
+    /// it and not in its reciprocal.
+    Parallel,
     /// The number itself.
     Value,
+    /// Angle or length by which friction holds a drive back, while its torque grows as while it shrinks: no number of the model.
+    Friction,
 }
 
 /// One number to identify.
@@ -78,37 +83,82 @@ impl Unknowns {
         let drives = drives(model);
         let mut paths: Vec<&str> = Vec::new();
         for pattern in patterns {
-            let hits = |p: &&Parameter| match *pattern {
+            let hits = |p: &Parameter| match *pattern {
                 "joints" => drives.contains(&p.path),
+                // A table by its path is all of its numbers, but for the factor on them.
                 own => {
-                    matches(own, &p.path)
-                        || p.path
-                            .strip_prefix(own)
-                            .is_some_and(|rest| rest.starts_with('.'))
+                    let rest = p.path.strip_prefix(own);
+                    let is_inside = rest.is_some_and(|rest| rest.starts_with('.'));
+                    matches(own, &p.path) || (is_inside && p.kind != ParameterKind::Factor)
                 }
             };
-            let before = paths.len();
-            let found = all.iter().filter(hits).map(|p| p.path.as_str());
-            let known = paths.clone();
-            paths.extend(found.filter(|path| !known.contains(path)));
-            let repeated = all.iter().any(|p| hits(&p));
-            if paths.len() == before && !repeated {
+            let found: Vec<&str> = all
+                .iter()
+                .filter(|p| hits(p))
+                .map(|p| p.path.as_str())
+                .collect();
+            if found.is_empty() {
+                let springs = all.iter().filter(|p| form(p) == Some(Form::Compliance));
                 return Err(IdentificationError::NoNumber {
                     pattern: (*pattern).to_owned(),
-                    examples: all
-                        .iter()
-                        .filter(|p| form(p).is_some())
-                        .take(3)
-                        .map(|p| p.path.clone())
-                        .collect(),
+                    examples: springs.take(3).map(|p| p.path.clone()).collect(),
                 });
             }
+            paths.extend(found);
         }
         let whole = with_whole_matrices(&all, &paths);
         let paths: Vec<&str> = whole.iter().map(String::as_str).collect();
         let parametric = model.parametric(&paths)?;
         let list = unknowns(parametric.parameters())?;
-        Ok(Self { parametric, list })
+        let mut found = Self { parametric, list };
+        found.tell_springs_beside_joints()?;
+        Ok(found)
+    }
+
+    /// Stiffnesses that change no spring of a limb are those of loads.
+    fn tell_springs_beside_joints(&mut self) -> Result<(), IdentificationError> {
+        let own = self.in_file(&self.nominal());
+        for (i, unknown) in self.list.iter_mut().enumerate() {
+            if unknown.form != Form::Compliance {
+                continue;
+            }
+            let at = |factor: f64| {
+                let mut moved = own.clone();
+                moved[i] *= factor;
+                self.parametric.mechanism(&moved)
+            };
+            if difference(&at(1.25)?, &at(0.75)?, 1.0).is_empty() {
+                unknown.form = Form::Parallel;
+                unknown.nominal = own[i] * unknown.parameter.in_si;
+                unknown.size = unknown.nominal;
+            }
+        }
+        Ok(())
+    }
+
+    /// The same, and the friction of every drive.
+    #[must_use]
+    pub fn with_friction(mut self, model: &Model) -> Self {
+        let names = model.mechanism.actuator_names();
+        for (name, (kind, _)) in names.into_iter().zip(drive_coordinates(&model.mechanism)) {
+            self.list.push(Unknown {
+                parameter: Parameter {
+                    path: format!("friction of {name}"),
+                    value: 0.0,
+                    unit: if kind == ParameterKind::Angle {
+                        "rad"
+                    } else {
+                        "m"
+                    },
+                    kind,
+                    in_si: 1.0,
+                },
+                form: Form::Friction,
+                nominal: 0.0,
+                size: 1e-4,
+            });
+        }
+        self
     }
 
     /// The unknowns.
@@ -132,7 +182,7 @@ impl Unknowns {
     /// What the unknowns must meet: compliances are not negative, matrices are positive semi-definite.
     pub(crate) fn constraints(&self) -> Vec<Constraint> {
         let own = |(i, unknown): (usize, &Unknown)| match unknown.form {
-            Form::Compliance => Some(Constraint::NonNegative(i)),
+            Form::Compliance | Form::Parallel | Form::Friction => Some(Constraint::NonNegative(i)),
             Form::MatrixEntry(0, 0) => {
                 Some(Constraint::PositiveSemidefinite((i..i + 21).collect()))
             }
@@ -146,7 +196,7 @@ impl Unknowns {
         let mut out = values.clone();
         for (i, Unknown { form, size, .. }) in self.list.iter().enumerate() {
             match form {
-                Form::Compliance => out[i] = out[i].max(RIGID * size),
+                Form::Compliance | Form::Parallel => out[i] = out[i].max(RIGID * size),
                 Form::MatrixEntry(0, 0) => {
                     let upper = values.rows(i, 21).into_owned();
                     let yields = with_unit_diagonal(&matrix_of(&upper))
@@ -155,7 +205,7 @@ impl Unknowns {
                     // A load without a deflection gets a little of one.
                     let own = entries()
                         .zip(i..i + 21)
-                        .filter(|((r, c), _)| r == c && !(yields > RIGID));
+                        .filter(|((r, c), _)| r == c && yields.is_nan() | (yields <= RIGID));
                     own.for_each(|(_, k)| out[k] += RIGID * self.list[k].size);
                 }
                 _ => {}
@@ -171,7 +221,8 @@ impl Unknowns {
         for (i, unknown) in self.list.iter().enumerate() {
             let si = match unknown.form {
                 Form::Compliance => 1.0 / values[i],
-                Form::Value => values[i],
+                Form::Value | Form::Parallel => values[i],
+                Form::Friction => continue,
                 Form::MatrixEntry(row, column) => {
                     if (row, column) == (0, 0) {
                         let stiffness = inverse(&matrix_of(&values.rows(i, 21).into_owned()));
@@ -204,14 +255,16 @@ impl Unknowns {
     ) -> Result<Vec<Change>, IdentificationError> {
         let own = self.in_file(values);
         let mut by_number = Vec::with_capacity(own.len());
-        for (i, unknown) in self.list.iter().enumerate() {
+        let of_model = self.list.iter().filter(|u| u.form != Form::Friction);
+        for (i, unknown) in of_model.enumerate() {
             // The springs are linear in the number, so that a large step is exact.
             let step = match unknown.form {
                 Form::Compliance => 0.25 * own[i],
                 Form::MatrixEntry(..) => {
                     1e-3 * stiffness_size(&self.list, i) / unknown.parameter.in_si
                 }
-                Form::Value => 1e-2 * unknown.size / unknown.parameter.in_si,
+                Form::Parallel => 0.5 * own[i],
+                Form::Value | Form::Friction => 1e-2 * unknown.size / unknown.parameter.in_si,
             };
             let at = |sign: f64| {
                 let mut moved = own.clone();
@@ -221,7 +274,7 @@ impl Unknowns {
             let (more, less) = (at(1.0)?, at(-1.0)?);
             let double = 2.0 * step * unknown.parameter.in_si;
             let springs = match unknown.form {
-                Form::Value => Vec::new(),
+                Form::Value | Form::Parallel | Form::Friction => Vec::new(),
                 _ => difference(&more, &less, double),
             };
             by_number.push(match springs.is_empty() {
@@ -233,7 +286,9 @@ impl Unknowns {
                 false => Change::Springs(springs),
             });
         }
-        Ok(self.by_compliance(values, by_number))
+        let mut out = self.by_compliance(values, by_number);
+        out.resize_with(self.list.len(), || Change::Friction);
+        Ok(out)
     }
 
     /// From derivatives by stiffnesses to those by compliances.
@@ -255,7 +310,7 @@ impl Unknowns {
                     let upper = values.rows(first, 21).into_owned();
                     Change::Springs(of_entry(&upper, row, column, &by_number[first..first + 21]))
                 }
-                (Form::Value, own) => own.clone(),
+                (_, own) => own.clone(),
             });
         }
         out
@@ -273,6 +328,25 @@ pub(crate) enum Change {
         less: Mechanism,
         step: f64,
     },
+    /// Not at all: a drive that friction holds back. They stand behind all others, in the order of the drives.
+    Friction,
+}
+
+/// Kind of the coordinate of every drive that gives way, and where it is: limb, and index among its coordinates.
+pub(crate) fn drive_coordinates(
+    mechanism: &Mechanism,
+) -> Vec<(ParameterKind, Option<(usize, usize)>)> {
+    let limbs = mechanism.limbs().iter().enumerate();
+    let drives = limbs.flat_map(|(limb, own)| {
+        own.actual.actuators().iter().map(move |drive| {
+            let kind = match drive.kind {
+                MotionKind::Prismatic => ParameterKind::Length,
+                MotionKind::Revolute => ParameterKind::Angle,
+            };
+            (kind, drive.coordinate.map(|c| (limb, c)))
+        })
+    });
+    drives.collect()
 }
 
 fn scaled(springs: &[SpringChange], factor: f64) -> Vec<SpringChange> {
@@ -399,27 +473,21 @@ fn in_matrix(path: &str) -> Option<(&str, usize, usize)> {
     (key.starts_with("matrix_n_")).then_some((matrix, row, column))
 }
 
-/// A matrix is identified as a whole: its inverse has all entries.
+/// The paths, each once; a matrix is identified as a whole, because its inverse has all entries.
 fn with_whole_matrices(all: &[Parameter], paths: &[&str]) -> Vec<String> {
     let mut out: Vec<String> = Vec::new();
     for path in paths {
-        let own: Vec<&str> = match in_matrix(path) {
+        if out.iter().any(|p| p == path) {
+            continue;
+        }
+        match in_matrix(path) {
             Some((matrix, ..)) => {
-                let same = all
-                    .iter()
-                    .filter(|p| in_matrix(&p.path).is_some_and(|m| m.0 == matrix));
-                same.map(|p| p.path.as_str()).collect()
+                let same = |p: &&Parameter| in_matrix(&p.path).is_some_and(|m| m.0 == matrix);
+                out.extend(all.iter().filter(same).map(|p| p.path.clone()));
             }
-            None => vec![path],
-        };
-        out.extend(
-            own.into_iter()
-                .filter(|p| !paths[..0].contains(p))
-                .map(str::to_owned),
-        );
+            None => out.push((*path).to_owned()),
+        }
     }
-    let mut seen = std::collections::BTreeSet::new();
-    out.retain(|path| seen.insert(path.clone()));
     out
 }
 
@@ -451,7 +519,7 @@ fn unknowns(parameters: &[Parameter]) -> Result<Vec<Unknown>, IdentificationErro
         let (nominal, size) = match form {
             Form::Compliance if si > 0.0 => (1.0 / si, 1.0 / si),
             Form::Compliance => return Err(not()),
-            Form::Value => (si, value_size(parameter)),
+            Form::Value | Form::Parallel | Form::Friction => (si, value_size(parameter)),
             Form::MatrixEntry(..) => (si, 1.0),
         };
         list.push(Unknown {

@@ -85,7 +85,7 @@ pub use assembly::controller::{Controller, ControllerAxis};
 pub use elements::rotary::RotaryAxis;
 pub use exact::{exact, exact_toml};
 pub use model::{Model, json_schema, read_model, require_stiffness};
-pub use parameters::{Parameter, ParameterKind, ParametricModel};
+pub use parameters::{NumberEdit, Parameter, ParameterKind, ParametricModel};
 pub use plausibility::link_matrix::doubts_of_link_matrix;
 pub use plausibility::numbers::{looks_like_radians, odd_angles};
 pub use presets::{Preset, PresetKind, preset_names, preset_text};

@@ -34,6 +34,7 @@ use crate::model::arguments::ModelArgs;
 use crate::modes::arguments::ModesArgs;
 use crate::options::EXIT_CODES;
 use crate::placing::arguments::PlacingArgs;
+use crate::plan_measurement::PlanMeasurementArgs;
 use crate::reproduce::ReproduceArgs;
 use crate::schema::SchemaArgs;
 use crate::shares::arguments::SharesArgs;
@@ -111,6 +112,7 @@ pub(crate) enum Command {
     Convert(Box<ConvertArgs>),
     Dialect(DialectArgs),
     Check(CheckArgs),
+    PlanMeasurement(Box<PlanMeasurementArgs>),
     Identify(Box<IdentifyArgs>),
     Import(Box<ImportArgs>),
     Reproduce(ReproduceArgs),

@@ -10,8 +10,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use kinetostat_diagnostic::{Diagnostic, ErrorCode, Location};
 use kinetostat_identification::{
-    Axes, DEVIATION, FitOptions, Identification, IdentificationError, MeasuredRow, TableFault,
-    Theory, Unknowns, identification, identified_model, observations, read_table, uncertainty_file,
+    Axes, DEVIATION, FitOptions, Identification, IdentificationError, InstrumentFrame, MeasuredRow,
+    TableFault, Theory, Unknowns, identification, identified_model, into_base, observations,
+    read_table, uncertainty_file,
 };
 use kinetostat_model::Model;
 use kinetostat_report::{Plot, PlotLine};
@@ -43,9 +44,15 @@ pub(crate) struct IdentifyArgs {
     /// `joints` for the stiffness of every drive
     #[arg(long, value_name = "NUMBER", num_args = 1.., default_value = "joints")]
     pub(crate) numbers: Vec<String>,
+    /// Readings are in the instrument's own frame: find it from places (x_mm, ...) without a load
+    #[arg(long)]
+    pub(crate) find_frame: bool,
     /// Standard deviation of a reading where the table has none, mm [default: 0.02]
     #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
     pub(crate) sigma_mm: Option<f64>,
+    /// Friction of the drives, too, from rows with `branch` loading and unloading
+    #[arg(long)]
+    pub(crate) friction: bool,
     /// How far the model's numbers are trusted, percent: what the readings do not tell stays near them
     #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = number)]
     pub(crate) prior_percent: Option<f64>,
@@ -78,6 +85,7 @@ Columns of the table, separated by commas, semicolons or tabs:
   rx_mrad, ...         turn of the tool by the load (_deg, _rad, _urad)
   gauge_mm, gauge_x, gauge_y, gauge_z  a dial gauge, and where it counts up
   sigma_mm             standard deviation of this row
+  branch               loading or unloading (--friction)
   note                 anything
 
 Examples:
@@ -103,8 +111,32 @@ pub(crate) struct IdentifyAnswer {
     /// Loads are small and weights left out.
     small_loads: bool,
     robust: bool,
+    /// Frame of the instrument in the base, if it was found.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    instrument: Option<InstrumentPlace>,
     #[serde(flatten)]
     found: Identification,
+}
+
+/// Where the instrument stood.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct InstrumentPlace {
+    position_mm: [f64; 3],
+    rotation_vector_deg: [f64; 3],
+    /// Distance of its places without a load from those of the model, root mean square.
+    left_mm: f64,
+    places: usize,
+}
+
+impl From<InstrumentFrame> for InstrumentPlace {
+    fn from(frame: InstrumentFrame) -> Self {
+        Self {
+            position_mm: (frame.origin * 1e3).into(),
+            rotation_vector_deg: frame.rotation.scaled_axis().map(f64::to_degrees).into(),
+            left_mm: 1e3 * frame.left,
+            places: frame.places,
+        }
+    }
 }
 
 /// Results that the command gives as JSON.
@@ -142,7 +174,19 @@ pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
     let uncertain = claim("uncertainties", &args.uncertain_out)?;
     let patterns: Vec<&str> = args.numbers.iter().map(String::as_str).collect();
     let unknowns = Unknowns::matching(&model, &patterns)?;
-    let rows = rows(args, &files, &model, &name)?;
+    let unknowns = match args.friction {
+        true => unknowns.with_friction(&model),
+        false => unknowns,
+    };
+    let mut rows = rows(args, &files, &model, &name)?;
+    let instrument = match args.find_frame {
+        true => {
+            let found = into_base(&mut rows, &model.mechanism);
+            let found = found.map_err(|e| ErrorCode::FileForm.failure(format!("{name}: {e}")))?;
+            Some(InstrumentPlace::from(found))
+        }
+        false => None,
+    };
     let gravity = model.mechanism.gravity();
     let observations = observations(&rows, &gravity).map_err(|faults| of_table(&name, &faults))?;
     let options = FitOptions {
@@ -162,7 +206,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
             args.model,
             env!("CARGO_PKG_VERSION")
         );
-        claimed.fill(index, format!("{head}{}", identified.to_toml()?).as_bytes())?;
+        claimed.fill(index, format!("{head}{}", identified.text).as_bytes())?;
     }
     if let Some(index) = uncertain {
         claimed.fill(index, uncertainty_file(&found, &name).as_bytes())?;
@@ -175,6 +219,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
         measurements: name,
         small_loads: args.small_loads,
         robust: args.robust,
+        instrument,
         found,
     };
     let shown = Shown {

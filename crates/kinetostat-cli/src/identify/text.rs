@@ -6,18 +6,18 @@ use kinetostat_identification::{IdentifiedNumber, Knowledge};
 
 use crate::identify::IdentifyAnswer;
 use crate::ui::layout::{columns, item, wrapped};
-use crate::ui::numbers::{fixed, number};
+use crate::ui::numbers::{fixed, number, triple};
 
 pub(crate) fn answer_text(a: &IdentifyAnswer) -> String {
     let found = &a.found;
     let mut out = wrapped(
         &format!(
-            "{} ({}): {} numbers from {} readings in {} postures ({}{}{})",
+            "{} ({}): {} from {} in {} ({}{}{})",
             a.model,
             a.model_source,
-            found.numbers.len(),
-            found.readings,
-            found.postures,
+            counted(found.numbers.len(), "number"),
+            counted(found.readings, "reading"),
+            counted(found.postures, "posture"),
             a.measurements,
             if a.small_loads { ", small loads" } else { "" },
             if a.robust { ", robust" } else { "" },
@@ -40,6 +40,18 @@ pub(crate) fn answer_text(a: &IdentifyAnswer) -> String {
         ),
         0,
     ));
+    if let Some(i) = &a.instrument {
+        out.push_str(&wrapped(
+            &format!(
+                "The instrument stands at {} mm, turned by the rotation vector {} deg; its {} places without a load are {} mm from those of the model.",
+                triple(i.position_mm, |x| fixed(x, 1)),
+                triple(i.rotation_vector_deg, |x| fixed(x, 3)),
+                i.places,
+                fixed(i.left_mm, 2)
+            ),
+            0,
+        ));
+    }
     out.push('\n');
     out.push_str(&columns(&rows(found.numbers.iter()), 2));
     if !found.findings.is_empty() {
@@ -49,6 +61,10 @@ pub(crate) fn answer_text(a: &IdentifyAnswer) -> String {
         out.push_str(&item(&finding.to_string()));
     }
     out
+}
+
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 fn rows<'a>(numbers: impl Iterator<Item = &'a IdentifiedNumber>) -> Vec<Vec<String>> {

@@ -15,8 +15,8 @@ use crate::ui::result_form::ResultForm;
 use crate::ui::screen::{self, Stream};
 use crate::{
     assemble, chatter, check, compare, compensate, curve, deflect, demo, dialect, engagement,
-    equilibria, force, frf, identify, import, lobes, map, mirror, model, modes, placing, reproduce,
-    shares, stiffness, tolerance, verify,
+    equilibria, force, frf, identify, import, lobes, map, mirror, model, modes, placing,
+    plan_measurement, reproduce, shares, stiffness, tolerance, verify,
 };
 
 /// Results of each command that has some as JSON.
@@ -43,6 +43,7 @@ const COMMANDS: &[(&str, &[ResultForm])] = &[
     ("engagement", engagement::RESULTS),
     ("dialect", dialect::RESULTS),
     ("check", check::RESULTS),
+    ("plan-measurement", plan_measurement::RESULTS),
     ("identify", identify::RESULTS),
     ("import", import::RESULTS),
     ("reproduce", reproduce::RESULTS),

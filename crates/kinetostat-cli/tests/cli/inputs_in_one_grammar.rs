@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::common::{MODEL, Said, command, run, workplace};
 
 /// A line for each command with a positional input; `@` stands for the input, and the second word is its option.
-const LINES: [(&str, &str, &str); 26] = [
+const LINES: [(&str, &str, &str); 28] = [
     (
         "compensate @ --out w.ngc --force-overwrite",
         "--job",
@@ -76,6 +76,12 @@ const LINES: [(&str, &str, &str); 26] = [
         "--model",
         "chain.toml",
     ),
+    ("identify @ --measured pulls.csv", "--model", "heavy.toml"),
+    (
+        "plan-measurement @ --mass-kg 100 --count 4 --candidates 8",
+        "--model",
+        "heavy.toml",
+    ),
     ("equilibria @ --starts 8", "--model", "chain.toml"),
     ("engagement @", "--job", "cut.toml"),
     ("expand @", "--program", "part.ngc"),
@@ -104,6 +110,8 @@ fn place() -> tempfile::TempDir {
     }
     let job = "schema = 1\nprogram = \"part.ngc\"\n[tool]\ncutter = { shape = \"flat\", diameter_mm = 6, teeth = 2 }\n[material]\nname = \"C45\"\n[stock]\nblock_mm = [[-30, -30, -5], [30, 30, 0]]\n[spindle]\nrpm = 8000\nrotation = \"clockwise\"\n";
     std::fs::write(here.path().join("cut.toml"), job).expect("a job");
+    let pulls = crate::every_option::PULLS;
+    std::fs::write(here.path().join("pulls.csv"), pulls).expect("a table");
     here
 }
 

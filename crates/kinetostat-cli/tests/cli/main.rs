@@ -46,6 +46,7 @@ mod force;
 mod force_fit;
 mod holes_and_slashes;
 mod identical;
+mod identify;
 mod implausible;
 mod import;
 mod import_link;

@@ -33,22 +33,19 @@
 //! row need infinite diagonal entries elsewhere, and those may be unseen. The penalty keeps the answer finite, but large, and
 //! its share of the objective is larger than usual. A prior is the remedy.
 
-mod error;
 mod newton;
-mod ordering;
-mod reduction;
-mod reflection;
+mod reduced;
 mod scaling;
 mod solution;
-mod symmetric;
+pub(crate) mod symmetric;
 
 use nalgebra::{DMatrix, DVector};
+use thiserror::Error;
 
-pub use error::ConeError;
 pub use solution::{BlockState, ConeSolution, KktResidual};
 
 use newton::Optimum;
-use reduction::Reduced;
+use reduced::Reduced;
 
 /// Limit of the optimisations with other weights of the penalty.
 const PENALTY_ROUNDS: usize = 4;
@@ -65,6 +62,66 @@ pub enum Constraint {
     /// They are the upper triangle of an n x n matrix, row by row: (0,0), (0,1), ..., (0,n-1), (1,1), ...; n(n+1)/2 columns, 21
     /// for a link. An off-diagonal unknown stands for both entries (i,j) and (j,i).
     PositiveSemidefinite(Vec<usize>),
+}
+
+/// Reason why a problem has no answer.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ConeError {
+    /// No row, or no unknown.
+    #[error("the matrix has {rows} rows and {columns} columns; at least one of each is required")]
+    Empty {
+        /// Rows of the matrix.
+        rows: usize,
+        /// Columns of the matrix.
+        columns: usize,
+    },
+    /// Sizes that do not fit together.
+    #[error("{what} has {found} entries; {expected} are required")]
+    Size {
+        /// Name of the vector or matrix.
+        what: &'static str,
+        /// Entries found.
+        found: usize,
+        /// Entries required.
+        expected: usize,
+    },
+    /// An infinite number or NaN.
+    #[error("{0} contains a number that is not finite")]
+    NotFinite(&'static str),
+    /// A nominal size that is not positive.
+    #[error("the nominal size of column {column} is {size}; it must be positive")]
+    NominalSize {
+        /// Column of the unknown.
+        column: usize,
+        /// Size found.
+        size: f64,
+    },
+    /// A prior precision that is not symmetric and positive semi-definite.
+    #[error("the prior precision is not symmetric and positive semi-definite")]
+    Precision,
+    /// A constraint on a column that does not exist or that has a constraint already.
+    #[error(
+        "a constraint names column {column}; each of the columns 0 to {columns}, the last one excluded, may be named once"
+    )]
+    Column {
+        /// Column named.
+        column: usize,
+        /// Columns of the matrix.
+        columns: usize,
+    },
+    /// A number of columns that is no triangle of a matrix.
+    #[error("a symmetric matrix has n(n+1)/2 columns (1, 3, 6, 10, 15, 21, ...), not {0}")]
+    Triangle(usize),
+    /// A duality gap that did not become small enough.
+    #[error(
+        "the duality gap is {gap:.1e} of the objective after {steps} Newton steps; scale the columns by nominal sizes"
+    )]
+    NotConverged {
+        /// Newton steps made.
+        steps: usize,
+        /// Smallest gap reached, relative to the objective.
+        gap: f64,
+    },
 }
 
 /// Linear least-squares problem with physical constraints.
@@ -129,8 +186,13 @@ impl<'a> ConeLeastSquares<'a> {
         self.check()?;
         let mut reduced = Reduced::new(self)?;
         if reduced.is_feasible(&reduced.unconstrained) {
-            let u = reduced.unconstrained.clone();
-            return Ok(solution::unscale(self, &reduced, Optimum::interior(u)));
+            let optimum = Optimum {
+                u: reduced.unconstrained.clone(),
+                dual: DVector::zeros(self.matrix.ncols()),
+                gap: 0.0,
+                steps: 0,
+            };
+            return Ok(solution::unscale(self, &reduced, &optimum));
         }
         let mut optimum = newton::minimise(&reduced)?;
         for _ in 0..PENALTY_ROUNDS {
@@ -143,7 +205,7 @@ impl<'a> ConeLeastSquares<'a> {
             next.steps += optimum.steps;
             (reduced, optimum) = (adapted, next);
         }
-        Ok(solution::unscale(self, &reduced, optimum))
+        Ok(solution::unscale(self, &reduced, &optimum))
     }
 
     fn check(&self) -> Result<(), ConeError> {
@@ -151,17 +213,14 @@ impl<'a> ConeLeastSquares<'a> {
         if rows == 0 || columns == 0 {
             return Err(ConeError::Empty { rows, columns });
         }
-        let vector = |what, values: &[f64], expected| {
-            if values.len() != expected {
-                let found = values.len();
-                return Err(ConeError::Size {
-                    what,
-                    found,
-                    expected,
-                });
-            }
-            let finite = values.iter().all(|v| v.is_finite());
-            finite.then_some(()).ok_or(ConeError::NotFinite(what))
+        let vector = |what, values: &[f64], expected| match values.len() {
+            found if found != expected => Err(ConeError::Size {
+                what,
+                found,
+                expected,
+            }),
+            _ if !values.iter().all(|v| v.is_finite()) => Err(ConeError::NotFinite(what)),
+            _ => Ok(()),
         };
         vector("the matrix", self.matrix.as_slice(), rows * columns)?;
         vector("the data vector", self.data.as_slice(), rows)?;
@@ -170,9 +229,6 @@ impl<'a> ConeLeastSquares<'a> {
         }
         if let Some(p) = self.precision {
             vector("the prior precision", p.as_slice(), columns * columns)?;
-            if !p.is_square() || (p - p.transpose()).amax() > 1e-12 * p.amax() {
-                return Err(ConeError::Precision);
-            }
         }
         if let Some(sizes) = self.nominal {
             vector("the list of nominal sizes", sizes, columns)?;
@@ -187,12 +243,10 @@ impl<'a> ConeLeastSquares<'a> {
                 return Err(ConeError::Triangle(constraint.columns().len()));
             }
             for &column in constraint.columns() {
-                if column >= columns {
-                    return Err(ConeError::ColumnOutOfRange { column, columns });
+                if used.get(column) != Some(&false) {
+                    return Err(ConeError::Column { column, columns });
                 }
-                if std::mem::replace(&mut used[column], true) {
-                    return Err(ConeError::ColumnTwice(column));
-                }
+                used[column] = true;
             }
         }
         Ok(())
@@ -214,7 +268,7 @@ impl Constraint {
     pub fn holds(&self, unknowns: &DVector<f64>) -> bool {
         let own: Vec<f64> = self.columns().iter().map(|c| unknowns[*c]).collect();
         let n = self.order().unwrap_or(0);
-        let entry = |i: usize, k: usize| own[symmetric::triangle_index(n, i.min(k), i.max(k))];
+        let entry = |i: usize, k: usize| own[symmetric::triangle_index(n, i, k)];
         if (0..n).any(|i| entry(i, i) <= 0.0) {
             return false;
         }

@@ -3,11 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::ConeError;
-use super::ordering::Block;
-use super::reduction::Reduced;
-use super::reflection::{reflect_rows, reflect_vector};
+use super::reduced::{Block, Reduced};
 use super::scaling::Scaling;
-use super::symmetric::{symmetric_from_triangle, triangle_from_symmetric};
+use super::symmetric::triangle_from_symmetric;
 
 /// Duality gap, relative to the objective, at which the iteration ends.
 const GAP: f64 = 1e-15;
@@ -38,20 +36,6 @@ pub(super) struct Optimum {
     pub steps: usize,
 }
 
-impl Optimum {
-    /// Optimum at which no constraint is active.
-    pub fn interior(u: DVector<f64>) -> Self {
-        let dual = DVector::zeros(u.len());
-        let (gap, steps) = (0.0, 0);
-        Self {
-            u,
-            dual,
-            gap,
-            steps,
-        }
-    }
-}
-
 /// Minimises the reduced objective over its blocks.
 pub(super) fn minimise(problem: &Reduced) -> Result<Optimum, ConeError> {
     let (p, cone) = (problem.triangle.ncols(), problem.constrained());
@@ -60,30 +44,27 @@ pub(super) fn minimise(problem: &Reduced) -> Result<Optimum, ConeError> {
     let size = |v: f64| (v / (order as f64).sqrt()).clamp(1e-3, 1e3);
     let x = size(problem.unconstrained.rows(0, cone).norm());
     let z = size(problem.triangle.tr_mul(&problem.data).norm());
-    let start = problem.blocks.iter();
-    let mut scalings: Vec<Scaling> = start
-        .map(|b| Scaling::of_multiples(x, z, b.order))
-        .collect();
+    let start = |b: &Block| Scaling::of_multiples(x, z, b.order);
+    let mut scalings: Vec<Scaling> = problem.blocks.iter().map(start).collect();
     let mut free = DVector::<f64>::zeros(p - cone);
     let mut best: Option<Optimum> = None;
     let (mut idle, mut relative) = (0, f64::INFINITY);
     for steps in 0..=STEPS {
         let (mut u, mut dual) = (DVector::zeros(p), DVector::zeros(p));
         for (block, scaling) in problem.blocks.iter().zip(&scalings) {
-            u.rows_range_mut(block.columns())
-                .copy_from(&scaling.primal());
-            dual.rows_range_mut(block.columns())
-                .copy_from(&scaling.dual());
+            let [x, z] = scaling.pair();
+            u.rows_range_mut(block.columns()).copy_from(&x);
+            dual.rows_range_mut(block.columns()).copy_from(&z);
         }
         u.rows_range_mut(cone..).copy_from(&free);
-        let residual = &problem.data - &problem.triangle * &u;
+        let residual = problem.residual_at(&u);
         // The sum of squares is <u, dual>, without the rounding errors of a product of matrices.
         let product = scalings.iter().map(|s| s.s.norm_squared()).sum();
         let gap = duality_gap(problem, product, &dual, &residual);
         let least = best.as_ref().map_or(f64::INFINITY, |b| b.gap);
         idle = if gap <= 0.5 * least { 0 } else { idle + 1 };
         if gap < least {
-            let objective = 0.5 * (residual.norm_squared() + problem.residual.powi(2));
+            let objective = problem.objective(&residual);
             relative = gap / (objective + ACCEPTABLE_FLOOR / ACCEPTABLE);
             let is_last = gap <= GAP * objective || gap <= SMALLEST_GAP;
             best = Some(Optimum {
@@ -142,93 +123,13 @@ fn snap_to_zero(problem: &Reduced, optimum: Optimum) -> Optimum {
             *value = 0.0;
         }
     }
-    let residual = &problem.data - &problem.triangle * &u;
+    let residual = problem.residual_at(&u);
     let gap = duality_gap(problem, u.dot(&optimum.dual), &optimum.dual, &residual);
     let gap = gap.max(optimum.gap);
-    let objective = 0.5 * (residual.norm_squared() + problem.residual.powi(2));
-    if gap <= (2.0 * optimum.gap).max(1e2 * GAP * objective) {
+    if gap <= (2.0 * optimum.gap).max(1e2 * GAP * problem.objective(&residual)) {
         Optimum { u, gap, ..optimum }
     } else {
         optimum
-    }
-}
-
-/// Least-squares system of one Newton step.
-///
-/// With `u = W v`, `W` the map of the scalings, the step is the answer of `v = target`, `T W v = residual`; free unknowns have no
-/// target. Dual matrices follow from the linearised complementarity as `D = target - S - V`.
-struct System<'a> {
-    problem: &'a Reduced,
-    scalings: &'a [Scaling],
-    residual: &'a DVector<f64>,
-    /// Reflections that eliminate `T W`, with their factors.
-    rows: DMatrix<f64>,
-    factors: Vec<f64>,
-    /// Rows of each column of `T W`: T is upper triangular, W mixes the columns of a block.
-    heights: Vec<usize>,
-    triangle: DMatrix<f64>,
-}
-
-/// Matrices of the blocks.
-type Matrices = Vec<DMatrix<f64>>;
-
-impl<'a> System<'a> {
-    fn new(problem: &'a Reduced, scalings: &'a [Scaling], residual: &'a DVector<f64>) -> Self {
-        let p = problem.triangle.ncols();
-        let mut heights: Vec<usize> = (1..=p).collect();
-        let mut rows = problem.triangle.clone();
-        let mut triangle = DMatrix::zeros(p, p);
-        for (block, scaling) in problem.blocks.iter().zip(scalings) {
-            let columns = block.columns();
-            let (place, shape) = ((0, columns.start), (columns.end, columns.len()));
-            let mixed = problem.triangle.view(place, shape) * scaling.map();
-            rows.view_mut(place, shape).copy_from(&mixed);
-            for k in columns.clone() {
-                heights[k] = columns.end;
-                triangle[(k, k)] = 1.0;
-            }
-        }
-        let factors = reflect_rows(&mut triangle, &mut rows, p, |k| heights[k]);
-        Self {
-            problem,
-            scalings,
-            residual,
-            rows,
-            factors,
-            heights,
-            triangle,
-        }
-    }
-
-    /// Step `v` for targets of the blocks, with its primal and dual matrices.
-    fn solve(&self, targets: &[DMatrix<f64>]) -> Option<(DVector<f64>, Matrices, Matrices)> {
-        let blocks = &self.problem.blocks;
-        let mut v = DVector::zeros(self.heights.len());
-        for (block, target) in blocks.iter().zip(targets) {
-            v.rows_range_mut(block.columns())
-                .copy_from(&triangle_from_symmetric(target));
-        }
-        let mut bottom = self.residual.clone();
-        let height = |k: usize| self.heights[k];
-        reflect_vector(&self.rows, &self.factors, height, &mut v, &mut bottom);
-        let solved = self.triangle.solve_upper_triangular_mut(&mut v);
-        if !solved || !v.iter().all(|v| v.is_finite()) {
-            return None;
-        }
-        let matrix = |b: &Block| symmetric_from_triangle(&v.as_slice()[b.columns()], b.order);
-        let primal: Matrices = blocks.iter().map(matrix).collect();
-        let dual = (self.scalings.iter().zip(targets).zip(&primal))
-            .map(|((s, target), x)| target - s.point() - x)
-            .collect();
-        Some((v, primal, dual))
-    }
-
-    /// Longest common step that keeps all primal and dual matrices semi-definite.
-    fn longest_step(&self, primal: &[DMatrix<f64>], dual: &[DMatrix<f64>]) -> f64 {
-        let pairs = self.scalings.iter().zip(primal.iter().zip(dual));
-        pairs.fold(f64::INFINITY, |step, (s, (x, z))| {
-            step.min(s.longest_step(x)).min(s.longest_step(z))
-        })
     }
 }
 
@@ -240,32 +141,62 @@ fn newton_step(
     scalings: &[Scaling],
     residual: &DVector<f64>,
 ) -> Option<(Vec<Scaling>, DVector<f64>)> {
-    let system = System::new(problem, scalings, residual);
-    let zeros: Matrices = (problem.blocks.iter())
-        .map(|b| DMatrix::zeros(b.order, b.order))
-        .collect();
-    let (_, primal, dual) = system.solve(&zeros)?;
-    let length = system.longest_step(&primal, &dual).min(1.0);
+    // With u = W v, W the map of the scalings, the step is the least-squares answer of v = target, T W v = residual; free unknowns
+    // have no target.
+    let p = residual.len();
+    let mut rows = DMatrix::zeros(2 * p, p);
+    rows.rows_mut(p, p).copy_from(&problem.triangle);
+    for (block, scaling) in problem.blocks.iter().zip(scalings) {
+        let mixed = problem.triangle.columns_range(block.columns()) * scaling.map();
+        let mut own = rows.columns_range_mut(block.columns());
+        own.rows_mut(p, p).copy_from(&mixed);
+        own.rows_range_mut(block.columns()).fill_with_identity();
+    }
+    let rows = rows.qr();
+    let triangle = rows.r();
+    // Step v, primal and dual matrices of the blocks, and the longest step that keeps all of them semi-definite.
+    let solve = |targets: &[DMatrix<f64>]| {
+        let mut right = DVector::zeros(2 * p);
+        right.rows_mut(p, p).copy_from(residual);
+        for (block, target) in problem.blocks.iter().zip(targets) {
+            let target = triangle_from_symmetric(target);
+            right.rows_range_mut(block.columns()).copy_from(&target);
+        }
+        rows.q_tr_mul(&mut right);
+        let v = triangle.solve_upper_triangular(&right.rows(0, p))?;
+        let (mut pairs, mut longest) = (Vec::new(), f64::INFINITY);
+        for ((block, s), target) in problem.blocks.iter().zip(scalings).zip(targets) {
+            let primal = block.matrix(&v);
+            // Linearised complementarity.
+            let dual = target - s.point() - &primal;
+            longest = longest
+                .min(s.longest_step(&primal))
+                .min(s.longest_step(&dual));
+            pairs.push((primal, dual));
+        }
+        let is_finite = v.iter().all(|v| v.is_finite());
+        is_finite.then_some((v, pairs, longest))
+    };
+    let zeros = |b: &Block| DMatrix::zeros(b.order, b.order);
+    let (_, pairs, longest) = solve(&problem.blocks.iter().map(zeros).collect::<Vec<_>>())?;
+    let length = longest.min(1.0);
     let (mut order, mut now, mut predicted) = (0, 0.0, 0.0);
-    for (s, (x, z)) in scalings.iter().zip(primal.iter().zip(&dual)) {
+    for (s, (x, z)) in scalings.iter().zip(&pairs) {
         let point = s.point();
         order += s.s.len();
         now += s.s.norm_squared();
         predicted += (&point + x * length).dot(&(&point + z * length));
     }
     let mu = now / order as f64 * (predicted / now).clamp(0.0, 1.0).powi(3);
-    let pairs = scalings.iter().zip(primal.iter().zip(&dual));
-    let targets: Matrices = pairs
-        .map(|(s, (x, z))| {
-            let n = s.s.len();
-            let product = x * z;
-            let second_order = (&product + product.transpose()) * 0.5;
-            s.divide(&(DMatrix::identity(n, n) * mu - second_order))
-        })
-        .collect();
-    let (v, primal, dual) = system.solve(&targets)?;
-    let length = (TO_BOUNDARY * system.longest_step(&primal, &dual)).min(1.0);
-    let pairs = scalings.iter().zip(primal.iter().zip(&dual));
-    let next: Option<Vec<_>> = pairs.map(|(s, (x, z))| s.step(x, z, length)).collect();
+    let target = |(s, (x, z)): (&Scaling, &(DMatrix<f64>, DMatrix<f64>))| {
+        let product = x * z;
+        let second_order = (&product + product.transpose()) * 0.5;
+        s.divide(&(DMatrix::identity(s.s.len(), s.s.len()) * mu - second_order))
+    };
+    let targets: Vec<_> = scalings.iter().zip(&pairs).map(target).collect();
+    let (v, pairs, longest) = solve(&targets)?;
+    let length = (TO_BOUNDARY * longest).min(1.0);
+    let steps = scalings.iter().zip(&pairs);
+    let next: Option<Vec<_>> = steps.map(|(s, (x, z))| s.step(x, z, length)).collect();
     Some((next?, v.rows_range(problem.constrained()..) * length))
 }

@@ -1,10 +1,9 @@
 //! Scaling of a pair of primal and dual matrices.
 
-use std::f64::consts::FRAC_1_SQRT_2;
-
+use kinetostat::linalg::SingularValues;
 use nalgebra::{DMatrix, DVector};
 
-use super::symmetric::{singular, triangle_from_symmetric};
+use super::symmetric::{symmetric_from_triangle, triangle_from_symmetric};
 
 /// Scaling of Nesterov and Todd of a pair `X = G S G^T`, `Z = G^-T S G^-1` with `G = U diag(g)` and `S = E diag(s) E^T`.
 ///
@@ -34,58 +33,39 @@ impl Scaling {
         &self.e * DMatrix::from_diagonal(&self.s) * self.e.transpose()
     }
 
-    /// Upper triangle of `X`.
-    pub fn primal(&self) -> DVector<f64> {
-        let g = &self.u * DMatrix::from_diagonal(&self.g);
-        triangle_from_symmetric(&(&g * self.point() * g.transpose()))
-    }
-
-    /// Upper triangle of `Z`.
-    pub fn dual(&self) -> DVector<f64> {
-        let inverse = &self.u * DMatrix::from_diagonal(&self.g.map(|g| 1.0 / g));
-        triangle_from_symmetric(&(&inverse * self.point() * inverse.transpose()))
+    /// Upper triangles of `X` and `Z`.
+    pub fn pair(&self) -> [DVector<f64>; 2] {
+        [self.g.clone(), self.g.map(f64::recip)].map(|sizes| {
+            let g = &self.u * DMatrix::from_diagonal(&sizes);
+            triangle_from_symmetric(&(&g * self.point() * g.transpose()))
+        })
     }
 
     /// Matrix of the map from scaled triangles `V` to triangles of `G V G^T`.
     pub fn map(&self) -> DMatrix<f64> {
         let n = self.s.len();
-        let mut columns = Vec::with_capacity(n * (n + 1) / 2);
-        for i in 0..n {
-            for k in i..n {
-                let size = self.g[i] * self.g[k];
-                let outer = self.u.column(i) * self.u.column(k).transpose();
-                let symmetric = if i == k {
-                    outer * size
-                } else {
-                    (&outer + outer.transpose()) * (size * FRAC_1_SQRT_2)
-                };
-                columns.push(triangle_from_symmetric(&symmetric));
-            }
+        let g = &self.u * DMatrix::from_diagonal(&self.g);
+        let mut map = DMatrix::identity(n * (n + 1) / 2, n * (n + 1) / 2);
+        for mut column in map.column_iter_mut() {
+            let v = symmetric_from_triangle(column.as_slice(), n);
+            column.copy_from(&triangle_from_symmetric(&(&g * v * g.transpose())));
         }
-        DMatrix::from_columns(&columns)
+        map
     }
 
     /// Solution `V` of `(S V + V S) / 2 = right`.
     pub fn divide(&self, right: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut rotated = self.e.tr_mul(right) * &self.e;
-        for i in 0..self.s.len() {
-            for k in 0..self.s.len() {
-                rotated[(i, k)] *= 2.0 / (self.s[i] + self.s[k]);
-            }
-        }
-        &self.e * rotated * self.e.transpose()
+        let rotated = self.e.tr_mul(right) * &self.e;
+        let sums = DMatrix::from_fn(self.s.len(), self.s.len(), |i, k| self.s[i] + self.s[k]);
+        &self.e * rotated.component_div(&sums) * self.e.transpose() * 2.0
     }
 
     /// Longest step from `S` along `direction` that stays semi-definite.
     pub fn longest_step(&self, direction: &DMatrix<f64>) -> f64 {
         let root = &self.e * DMatrix::from_diagonal(&self.s.map(|s| 1.0 / s.sqrt()));
         let relative = root.tr_mul(direction) * &root;
-        let smallest = relative.symmetric_eigenvalues().min();
-        if smallest < 0.0 {
-            -1.0 / smallest
-        } else {
-            f64::INFINITY
-        }
+        // Infinite if no eigenvalue is negative.
+        1.0 / (-relative.symmetric_eigenvalues().min()).max(0.0)
     }
 
     /// Scaling after a step; `None` if rounding errors made a matrix indefinite.
@@ -94,14 +74,16 @@ impl Scaling {
         let a = (&point + primal * length).cholesky()?.unpack();
         let b = (&point + dual * length).cholesky()?.unpack();
         // G A V diag(s)^-1/2 is a scaling of the new pair, then an orthogonal factor is split off on the right.
-        let (v, _, s) = singular(b.tr_mul(&a));
-        let change = a * v * DMatrix::from_diagonal(&s.map(|s| 1.0 / s.sqrt()));
-        let (rotation, right, g) = singular(change.tr_mul(&DMatrix::from_diagonal(&self.g)));
+        let balanced = SingularValues::of(&b.tr_mul(&a));
+        let s = DVector::from_vec(balanced.values);
+        let change = a * balanced.right * DMatrix::from_diagonal(&s.map(|s| 1.0 / s.sqrt()));
+        let split = SingularValues::of(&change.tr_mul(&DMatrix::from_diagonal(&self.g)));
+        let g = DVector::from_vec(split.values);
         let is_positive = s.iter().chain(&g).all(|&x| x > 0.0 && x.is_finite());
         is_positive.then(|| Self {
-            u: &self.u * rotation,
+            u: &self.u * split.right,
             g,
-            e: right.transpose(),
+            e: split.left.transpose(),
             s,
         })
     }

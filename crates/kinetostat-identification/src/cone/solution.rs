@@ -6,9 +6,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::ConeLeastSquares;
 use super::newton::Optimum;
-use super::ordering::Block;
-use super::reduction::Reduced;
-use super::symmetric::{symmetric_from_triangle, triangle_from_symmetric, triangle_index};
+use super::reduced::{Block, Reduced};
+use super::symmetric::{triangle_from_symmetric, triangle_index};
 
 /// Eigenvalues below this fraction of the largest are zero, even if their dual is zero, too.
 const ZERO_EIGENVALUE: f64 = 1e-8;
@@ -71,10 +70,10 @@ pub struct BlockState {
 pub(super) fn unscale(
     problem: &ConeLeastSquares<'_>,
     reduced: &Reduced,
-    optimum: Optimum,
+    optimum: &Optimum,
 ) -> ConeSolution {
     let u = &optimum.u;
-    let x = reduced.unscaled(u);
+    let x = &reduced.units * u;
     let chi_squared = (problem.matrix * &x - problem.data).norm_squared();
     let prior = match (problem.precision, problem.reference) {
         (Some(p), Some(x0)) => (&x - x0).dot(&(p * (&x - x0))),
@@ -86,22 +85,13 @@ pub(super) fn unscale(
         dual_infeasibility: 0.0,
         complementarity: 0.0,
     };
-    let mut blocks = Vec::with_capacity(problem.constraints.len());
     for block in &reduced.blocks {
-        let part =
-            |v: &DVector<f64>| symmetric_from_triangle(&v.as_slice()[block.columns()], block.order);
-        let (matrix, slope) = (part(u), part(&gradient));
+        let slope = block.matrix(&gradient);
+        kkt.complementarity = kkt.complementarity.max(block.matrix(u).dot(&slope).abs());
         let negative = -slope.symmetric_eigenvalues().min();
         kkt.dual_infeasibility = kkt.dual_infeasibility.max(negative);
-        kkt.complementarity = kkt.complementarity.max(matrix.dot(&slope).abs());
-        blocks.push(block_state(
-            reduced,
-            block,
-            &matrix,
-            &part(&optimum.dual),
-            &slope,
-        ));
     }
+    let state = |b: &Block| block_state(reduced, optimum, b, &b.matrix(&gradient));
     ConeSolution {
         x,
         objective: 0.5 * (chi_squared + prior),
@@ -109,23 +99,23 @@ pub(super) fn unscale(
         gap: optimum.gap * reduced.objective_unit,
         penalty: reduced.penalty(u) * reduced.objective_unit,
         kkt,
-        blocks,
+        blocks: reduced.blocks.iter().map(state).collect(),
         rank: u.len() - reduced.unseen.ncols(),
-        unseen: reduced.unscaled_directions(),
+        unseen: &reduced.units * &reduced.unseen,
         newton_steps: optimum.steps,
     }
 }
 
-/// State of a block from its scaled matrix, the dual matrix of the optimisation and the gradient.
+/// State of a block, from the optimum and the gradient by its scaled matrix.
 fn block_state(
     reduced: &Reduced,
+    optimum: &Optimum,
     block: &Block,
-    matrix: &DMatrix<f64>,
-    dual: &DMatrix<f64>,
     slope: &DMatrix<f64>,
 ) -> BlockState {
     let n = block.order;
-    let eigen = matrix.clone().symmetric_eigen();
+    let dual = block.matrix(&optimum.dual);
+    let eigen = block.matrix(&optimum.u).symmetric_eigen();
     let mut ascending: Vec<usize> = (0..n).collect();
     ascending.sort_by(|&i, &k| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[k]));
     let largest = if n > 1 { eigen.eigenvalues.amax() } else { 1.0 };
@@ -136,23 +126,24 @@ fn block_state(
         let value = eigen.eigenvalues[i];
         let step = triangle_from_symmetric(&(v * v.transpose()));
         let curvature = reduced.curvature(block, &step);
-        value * curvature <= v.dot(&(dual * v)) || value <= ZERO_EIGENVALUE * largest
+        value * curvature <= v.dot(&(&dual * v)) || value <= ZERO_EIGENVALUE * largest
     };
     let at_bound = ascending.iter().take_while(is_zero).count();
-    let relative = |&i: &usize| {
-        let value = eigen.eigenvalues[i];
-        if value == 0.0 { 0.0 } else { value / largest }
-    };
-    let factor = |i: usize, k: usize| reduced.scale[block.start + triangle_index(n, i, k)];
-    let unit = |i: usize, k: usize| {
-        if i == k {
-            factor(i, i)
-        } else {
-            factor(i, k) * SQRT_2
-        }
+    // A matrix of zeros has eigenvalues of zero, not NaN.
+    let unit = if largest > 0.0 { largest } else { 1.0 };
+    // The only entry of a column of the units; an off-diagonal unknown stands for two entries of the matrix.
+    let size = |i: usize, k: usize| {
+        let scale = reduced
+            .units
+            .column(block.start + triangle_index(n, i, k))
+            .sum();
+        if i == k { scale } else { scale * SQRT_2 }
     };
     BlockState {
-        eigenvalues: ascending.iter().map(relative).collect(),
+        eigenvalues: ascending
+            .iter()
+            .map(|&i| eigen.eigenvalues[i] / unit)
+            .collect(),
         at_bound,
         rigid_loads: DMatrix::from_fn(n, at_bound, |i, k| {
             let v = eigen.eigenvectors.column(ascending[k]);
@@ -160,7 +151,7 @@ fn block_state(
             load[i] / load.amax()
         }),
         dual: DMatrix::from_fn(n, n, |i, k| {
-            slope[(i, k)] * reduced.objective_unit / unit(i.min(k), i.max(k))
+            slope[(i, k)] * reduced.objective_unit / size(i, k)
         }),
     }
 }

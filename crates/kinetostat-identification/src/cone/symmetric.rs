@@ -1,21 +1,25 @@
-//! Symmetric matrices as triangles, and an accurate singular value decomposition.
+//! Symmetric matrices: triangles and square roots.
 
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 use nalgebra::{DMatrix, DVector};
 
-/// Limit of the sweeps of rotations; a few are enough.
-const SWEEPS: usize = 30;
+/// Asymmetry and negative eigenvalues up to this size are rounding, for a unit diagonal.
+const ROUNDING: f64 = 1e-9;
 
-/// Position of the entry (i, k), i <= k, in the upper triangle of an n x n matrix, row by row.
+/// Eigenvalues below this fraction of the largest are zero.
+const ZERO_EIGENVALUE: f64 = 1e-13;
+
+/// Position of the entry (i, k) in the upper triangle of a symmetric n x n matrix, row by row.
 pub(super) fn triangle_index(n: usize, i: usize, k: usize) -> usize {
+    let (i, k) = (i.min(k), i.max(k));
     i * (2 * n + 1 - i) / 2 + k - i
 }
 
 /// Symmetric matrix from the upper triangle, row by row, with off-diagonal entries multiplied by the square root of 2.
 pub(super) fn symmetric_from_triangle(triangle: &[f64], n: usize) -> DMatrix<f64> {
     DMatrix::from_fn(n, n, |i, k| {
-        let value = triangle[triangle_index(n, i.min(k), i.max(k))];
+        let value = triangle[triangle_index(n, i, k)];
         if i == k { value } else { value * FRAC_1_SQRT_2 }
     })
 }
@@ -31,42 +35,32 @@ pub(super) fn triangle_from_symmetric(matrix: &DMatrix<f64>) -> DVector<f64> {
     DVector::from_vec(triangle)
 }
 
-/// Singular value decomposition `matrix = L diag(s) R^T` by the one-sided rotations of Jacobi and Hestenes: `(R, L, s)`.
-///
-/// It is accurate for singular values of very different size if they come from columns of very different size (Demmel and Veselic
-/// 1992), unlike methods that reduce the matrix to two diagonals first.
-pub(super) fn singular(mut matrix: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>, DVector<f64>) {
-    let n = matrix.ncols();
-    let mut right = DMatrix::identity(n, n);
-    for _ in 0..SWEEPS {
-        let mut is_orthogonal = true;
-        for i in 0..n {
-            for k in i + 1..n {
-                let (a, b) = (matrix.column(i).norm(), matrix.column(k).norm());
-                let dot = matrix.column(i).dot(&matrix.column(k));
-                if dot.abs() <= f64::EPSILON * a * b {
-                    continue;
-                }
-                is_orthogonal = false;
-                let ratio = (b - a) * (b + a) / (2.0 * dot);
-                let tangent = 1.0_f64.copysign(ratio) / (ratio.abs() + ratio.hypot(1.0));
-                let cosine = 1.0 / tangent.hypot(1.0);
-                for m in [&mut matrix, &mut right] {
-                    for row in 0..n {
-                        let (x, y) = (m[(row, i)], m[(row, k)]);
-                        m[(row, i)] = cosine * (x - tangent * y);
-                        m[(row, k)] = cosine * (y + tangent * x);
-                    }
-                }
-            }
-        }
-        if is_orthogonal {
-            break;
-        }
+/// Matrix `B` (n x rank) with `B B^T = matrix`; `None` if the matrix is not square, finite, symmetric and positive semi-definite.
+pub(crate) fn square_root(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    if !matrix.is_square() {
+        return None;
     }
-    let sizes = DVector::from_iterator(n, matrix.column_iter().map(|c| c.norm()));
-    for (mut column, size) in matrix.column_iter_mut().zip(&sizes) {
-        column /= *size;
+    // Unit diagonal: the units of the unknowns must not decide about the rank.
+    let sizes = matrix
+        .diagonal()
+        .map(|d| if d > 0.0 { d.sqrt() } else { 1.0 });
+    let scaled = DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, k| {
+        matrix[(i, k)] / sizes[i] / sizes[k]
+    });
+    let is_symmetric = (&scaled - scaled.transpose()).amax() <= ROUNDING;
+    let is_negative = scaled.diagonal().iter().any(|d| *d < 0.0);
+    if !scaled.iter().all(|v| v.is_finite()) || !is_symmetric || is_negative {
+        return None;
     }
-    (right, matrix, sizes)
+    let eigen = ((&scaled + scaled.transpose()) * 0.5).symmetric_eigen();
+    let values = &eigen.eigenvalues;
+    if values.min() < -ROUNDING * values.amax() {
+        return None;
+    }
+    let kept: Vec<usize> = (0..values.len())
+        .filter(|&k| values[k] > ZERO_EIGENVALUE * values.amax())
+        .collect();
+    Some(DMatrix::from_fn(matrix.nrows(), kept.len(), |i, k| {
+        sizes[i] * eigen.eigenvectors[(i, kept[k])] * values[kept[k]].sqrt()
+    }))
 }

@@ -19,19 +19,12 @@ use nalgebra::DMatrix;
 
 mod continuous;
 mod error;
-mod exchange;
-mod linalg;
-mod low_rank;
-mod mixture;
+mod exact;
 mod objective;
 mod problem;
-mod quadratic;
-mod starts;
-mod whitening;
 
-pub use error::{DesignError, InputMatrix, Unobservable};
+pub use error::DesignError;
 
-use objective::{Objective, Scratch};
 use problem::Problem;
 
 /// Scalar measure of the covariance `M^-1`, to be minimised.
@@ -66,9 +59,6 @@ pub struct DesignSettings {
     pub starts: usize,
     /// Seed of the random starts. Equal seeds give equal designs.
     pub seed: u64,
-    /// Smallest singular value of all observation rows together, relative to the largest and with columns of unit length, at which a
-    /// combination of parameters counts as identifiable.
-    pub rank_tolerance: f64,
 }
 
 impl Default for DesignSettings {
@@ -79,7 +69,6 @@ impl Default for DesignSettings {
             gap: 1e-9,
             starts: 20,
             seed: 0,
-            rank_tolerance: 1e-8,
         }
     }
 }
@@ -160,7 +149,7 @@ pub fn exact(
     settings: &DesignSettings,
 ) -> Result<ExactDesign, DesignError> {
     let problem = Problem::new(candidates, criterion, count, settings)?;
-    let (weights, bound) = if matches!(problem.objective, Objective::Worst(..)) {
+    let (weights, bound) = if *criterion == Criterion::WorstDirection {
         // Without a continuous design of its own, the starts follow that of A-optimality.
         let average = Problem::new(candidates, &Criterion::Average, count, settings)?;
         (continuous::optimise(&average, 1e-2)?.weights, None)
@@ -168,7 +157,7 @@ pub fn exact(
         let solution = continuous::optimise(&problem, settings.gap)?;
         (solution.weights, Some(solution.value * solution.ratio))
     };
-    let (postures, value) = starts::search(&problem, &weights, bound, settings)?;
+    let (postures, value) = exact::search(&problem, &weights, bound, settings)?;
     Ok(rated(postures, value, bound))
 }
 
@@ -198,12 +187,10 @@ pub fn evaluate(
         ..settings.clone()
     };
     let problem = Problem::new(candidates, criterion, count, &settings)?;
-    let information = problem.information_of(&problem.fixed, &postures);
-    let mut scratch = Scratch::new(&problem);
-    let value = problem
-        .value(information.as_slice(), &mut scratch)
-        .ok_or_else(|| problem.too_few_observations(&postures))?;
-    let bound = if matches!(problem.objective, Objective::Worst(..)) {
+    let information = problem.sum(&problem.fixed, &postures);
+    let value = (problem.objective.value(information))
+        .ok_or_else(|| problem.too_few_observations(problem.rank(&postures)))?;
+    let bound = if *criterion == Criterion::WorstDirection {
         None
     } else {
         let solution = continuous::optimise(&problem, settings.gap)?;

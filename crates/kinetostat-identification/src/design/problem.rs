@@ -1,12 +1,16 @@
 //! Checked input in whitened parameters.
 
+use kinetostat::linalg::SingularValues;
 use nalgebra::{DMatrix, DVector};
 
-use super::error::{DesignError, InputMatrix};
-use super::linalg::{pack, packed_len, unpack};
+use super::error::DesignError;
 use super::objective::Objective;
-use super::whitening::{Whitening, root};
 use super::{Criterion, DesignSettings};
+use crate::cone::symmetric::square_root;
+
+/// Smallest singular value of all observation rows together, relative to the largest and with columns of unit length, at which a
+/// combination of parameters counts as identifiable.
+const RANK_TOLERANCE: f64 = 1e-8;
 
 /// Candidates and criterion in parameters for which all candidates and the fixed information together have the information `I`.
 ///
@@ -17,13 +21,12 @@ pub(super) struct Problem {
     pub(super) count: usize,
     /// True if a posture may be chosen more than once.
     pub(super) repeats: bool,
-    /// Observation rows of each candidate as columns, parameters x rows. All have equally many, at most as many as parameters;
-    /// shorter ones end with zeros.
+    /// Observation rows of each candidate, at most as many as parameters.
     pub(super) rows: Vec<DMatrix<f64>>,
-    /// Packed information of each candidate as columns.
+    /// Entries of the information matrix of each candidate as columns.
     pub(super) information: DMatrix<f64>,
-    /// Packed fixed information.
-    pub(super) fixed: DVector<f64>,
+    /// Fixed information.
+    pub(super) fixed: DMatrix<f64>,
     pub(super) objective: Objective,
 }
 
@@ -38,98 +41,133 @@ impl Problem {
         check(candidates, count, settings)?;
         let p = candidates[0].ncols();
         let fixed = match &settings.fixed_information {
-            Some(m) => root(m, InputMatrix::FixedInformation, p)?,
+            Some(m) => root(m, "fixed information", p)?,
             None => DMatrix::zeros(p, 0),
         };
         let test_poses = match criterion {
-            Criterion::TestPoses(l) => Some(root(l, InputMatrix::TestPoses, p)?),
-            _ => None,
+            Criterion::TestPoses(l) => root(l, "matrix of the test poses", p)?,
+            _ => DMatrix::identity(p, p),
         };
-        let whitening = Whitening::new(candidates, &fixed, settings.rank_tolerance)?;
-        let t = &whitening.matrix;
-        let most = candidates.iter().map(DMatrix::nrows).max().unwrap_or(1);
-        let rows: Vec<DMatrix<f64>> = candidates
-            .iter()
-            .map(|a| compressed(a * t, most.min(p)))
+        if test_poses.is_empty() {
+            return Err(DesignError::ZeroTestPoses);
+        }
+        let (t, ln_determinant) = whitening(candidates, &fixed)?;
+        let test_poses = t.tr_mul(&test_poses);
+        let objective = match criterion {
+            Criterion::TestPoses(_) | Criterion::Average => Objective::Linear(test_poses),
+            Criterion::Determinant => Objective::Determinant(2.0 * ln_determinant / p as f64),
+            Criterion::WorstDirection => Objective::Worst(test_poses),
+        };
+        let whitened = candidates.iter().map(|a| a * &t);
+        let rows: Vec<DMatrix<f64>> = whitened
+            .map(|a| if a.nrows() > p { a.qr().r() } else { a })
             .collect();
-        let mut information = DMatrix::zeros(packed_len(p), rows.len());
-        let mut product = DMatrix::zeros(p, p);
+        let mut information = DMatrix::zeros(p * p, rows.len());
         for (a, mut column) in rows.iter().zip(information.column_iter_mut()) {
-            a.mul_to(&a.transpose(), &mut product);
-            pack(&product, 1.0, column.as_mut_slice());
+            column.copy_from_slice(a.tr_mul(a).as_slice());
         }
         let fixed = t.tr_mul(&fixed);
-        let mut packed_fixed = DVector::zeros(packed_len(p));
-        pack(
-            &(&fixed * fixed.transpose()),
-            1.0,
-            packed_fixed.as_mut_slice(),
-        );
-        let objective = match (criterion, test_poses) {
-            (Criterion::TestPoses(_), Some(b)) if b.ncols() == 0 => {
-                return Err(DesignError::ZeroTestPoses);
-            }
-            (Criterion::TestPoses(_), Some(b)) => Objective::Linear(t.tr_mul(&b)),
-            (Criterion::Determinant, _) => {
-                Objective::Determinant(2.0 * whitening.ln_determinant / p as f64)
-            }
-            (Criterion::WorstDirection, _) => {
-                let mut packed = DVector::zeros(packed_len(p));
-                pack(&t.tr_mul(t), 1.0, packed.as_mut_slice());
-                Objective::Worst(t.transpose(), packed)
-            }
-            _ => Objective::Linear(t.transpose()),
-        };
         Ok(Self {
             parameters: p,
             count,
             repeats: settings.repeats,
             rows,
             information,
-            fixed: packed_fixed,
+            fixed: &fixed * fixed.transpose(),
             objective,
         })
     }
 
-    /// Packed information of a set of postures, added to `base`.
-    pub(super) fn information_of(&self, base: &DVector<f64>, postures: &[usize]) -> DVector<f64> {
-        let mut sum = base.clone();
-        for x in postures {
-            sum += self.information.column(*x);
-        }
-        sum
+    /// Information of one candidate.
+    pub(super) fn information_of(&self, x: usize) -> DMatrix<f64> {
+        let column = self.information.column(x);
+        DMatrix::from_column_slice(self.parameters, self.parameters, column.as_slice())
     }
 
-    /// Error of a set of postures with singular information.
-    pub(super) fn too_few_observations(&self, postures: &[usize]) -> DesignError {
-        DesignError::TooFewObservations {
-            count: self.count,
-            rank: self.rank(postures),
-            parameters: self.parameters,
-        }
+    /// Information `base + sum w_x A_x^T A_x`.
+    pub(super) fn weighted(&self, base: &DMatrix<f64>, weights: &DVector<f64>) -> DMatrix<f64> {
+        let sum = &self.information * weights;
+        base + DMatrix::from_column_slice(self.parameters, self.parameters, sum.as_slice())
+    }
+
+    /// Information of a set of postures, added to `base`.
+    pub(super) fn sum(&self, base: &DMatrix<f64>, postures: &[usize]) -> DMatrix<f64> {
+        let each = postures.iter().map(|x| self.information_of(*x));
+        each.fold(base.clone(), |sum, information| sum + information)
+    }
+
+    /// Sensitivity `|A_x S|^2` of each candidate.
+    pub(super) fn sensitivities(&self, solution: &DMatrix<f64>) -> DVector<f64> {
+        let gradient = solution * solution.transpose();
+        let gradient = DVector::from_column_slice(gradient.as_slice());
+        self.information.tr_mul(&gradient)
     }
 
     /// Rank of the information of a set of postures.
     pub(super) fn rank(&self, postures: &[usize]) -> usize {
-        let p = self.parameters;
-        let packed = self.information_of(&self.fixed, postures);
-        let mut matrix = DMatrix::zeros(p, p);
-        unpack(packed.as_slice(), &mut matrix);
-        matrix.fill_upper_triangle_with_lower_triangle();
-        let values = matrix.symmetric_eigenvalues();
-        let cut = 1e-12 * values.max();
-        values.iter().filter(|v| **v > cut).count()
+        SingularValues::of(&self.sum(&self.fixed, postures)).rank(1e-12)
+    }
+
+    /// Error of sets of postures whose largest rank is `rank`.
+    pub(super) fn too_few_observations(&self, rank: usize) -> DesignError {
+        DesignError::TooFewObservations {
+            count: self.count,
+            rank,
+            parameters: self.parameters,
+        }
     }
 }
 
-/// Columns `C` (parameters x `count`) with `C C^T = A^T A`.
-fn compressed(a: DMatrix<f64>, count: usize) -> DMatrix<f64> {
-    let a = if a.nrows() > count { a.qr().r() } else { a };
-    let mut columns = DMatrix::zeros(a.ncols(), count);
-    for (mut column, row) in columns.column_iter_mut().zip(a.row_iter()) {
-        column.tr_copy_from(&row);
+/// Change of parameters `x = T z` for which all information together is `I`, with the logarithm of its absolute determinant.
+///
+/// The rank is decided on the observation rows themselves: their squares would hide singular values below 1e-8.
+fn whitening(
+    candidates: &[DMatrix<f64>],
+    fixed: &DMatrix<f64>,
+) -> Result<(DMatrix<f64>, f64), DesignError> {
+    let p = fixed.nrows();
+    let fixed = fixed.transpose();
+    let rows: Vec<_> = (candidates.iter().flat_map(|a| a.row_iter()))
+        .chain(fixed.row_iter())
+        .collect();
+    let mut all = DMatrix::from_rows(&rows);
+    let mut lengths = Vec::with_capacity(p);
+    for mut column in all.column_iter_mut() {
+        let norm = column.norm();
+        lengths.push(if norm > 0.0 { norm } else { 1.0 });
+        column /= lengths[lengths.len() - 1];
     }
-    columns
+    let singular = SingularValues::of(&all);
+    let rank = singular.rank(RANK_TOLERANCE);
+    if rank < p {
+        let mut combinations = singular.null_space(RANK_TOLERANCE);
+        for (mut row, length) in combinations.row_iter_mut().zip(&lengths) {
+            row /= *length;
+        }
+        for mut column in combinations.column_iter_mut() {
+            column /= column.amax();
+        }
+        return Err(DesignError::NotIdentifiable {
+            rank,
+            parameters: p,
+            combinations,
+        });
+    }
+    let values = &singular.values;
+    let matrix = DMatrix::from_fn(p, p, |i, k| singular.right[(i, k)] / lengths[i] / values[k]);
+    let ln_determinant = -lengths.iter().chain(values).map(|x| x.ln()).sum::<f64>();
+    Ok((matrix, ln_determinant))
+}
+
+/// Matrix `B` (parameters x rank) with `B B^T` equal to a symmetric positive semidefinite matrix.
+fn root(
+    m: &DMatrix<f64>,
+    matrix: &'static str,
+    parameters: usize,
+) -> Result<DMatrix<f64>, DesignError> {
+    let fits = m.shape() == (parameters, parameters);
+    let root = if fits { square_root(m) } else { None };
+    root.ok_or(DesignError::NotSemidefinite { matrix, parameters })
 }
 
 /// Refuses shapes, numbers and settings that have no design.
@@ -138,39 +176,32 @@ fn check(
     count: usize,
     settings: &DesignSettings,
 ) -> Result<(), DesignError> {
-    for (setting, value) in [
-        ("gap", settings.gap),
-        ("rank tolerance", settings.rank_tolerance),
-    ] {
-        if !(value > 0.0 && value < 1.0) {
-            return Err(DesignError::SettingOutsideRange { setting, value });
-        }
+    if !(settings.gap > 0.0 && settings.gap < 1.0) {
+        return Err(DesignError::Gap(settings.gap));
     }
     let expected = candidates.first().map_or(0, DMatrix::ncols);
     if expected == 0 {
         return Err(DesignError::NoCandidates);
     }
-    if count == 0 {
-        return Err(DesignError::ZeroCount);
-    }
-    if !settings.repeats && count > candidates.len() {
-        return Err(DesignError::TooFewCandidates {
+    if count == 0 || (!settings.repeats && count > candidates.len()) {
+        return Err(DesignError::Count {
             count,
             candidates: candidates.len(),
         });
     }
     for (candidate, a) in candidates.iter().enumerate() {
-        if a.nrows() == 0 || a.ncols() != expected {
+        let (rows, columns) = a.shape();
+        if rows == 0 || columns != expected {
             return Err(DesignError::CandidateShape {
                 candidate,
-                rows: a.nrows(),
-                columns: a.ncols(),
+                rows,
+                columns,
                 expected,
             });
         }
         // The limit leaves room for sums of squares.
         if !a.iter().all(|x| x.abs() < 1e140) {
-            return Err(DesignError::CandidateNotFinite { candidate });
+            return Err(DesignError::CandidateNotFinite(candidate));
         }
     }
     Ok(())

@@ -9,6 +9,7 @@ use crate::axes::Axes;
 pub(crate) enum Column {
     Posture,
     Note,
+    Branch,
     Axis(usize, f64),
     Force(usize, f64),
     Moment(usize, f64),
@@ -37,6 +38,7 @@ x_mm, y_mm, z_mm: place of that point, base axes, loaded and, in a row with load
 rx_mrad, ry_mrad, rz_mrad: turn of the tool by the load, base axes (_rad, _mrad, _urad, _deg)
 gauge_mm, gauge_x, gauge_y, gauge_z: reading of a dial gauge and the direction in which it counts up, base axes
 sigma_mm: standard deviation of the lengths of this row; sigma_r_mrad: that of the turns
+branch: loading or unloading, of a load that is put on in steps and taken off again
 note: anything";
 
 /// Endings of a heading with their units in SI.
@@ -76,6 +78,7 @@ pub(crate) fn column_of(head: &str, axes: &Axes<'_>) -> Result<Column, NoColumn>
     match head {
         "posture" => return Ok(Column::Posture),
         "note" => return Ok(Column::Note),
+        "branch" => return Ok(Column::Branch),
         "mass_kg" => return Ok(Column::Mass),
         "gauge_x" => return Ok(Column::GaugeDirection(0)),
         "gauge_y" => return Ok(Column::GaugeDirection(1)),

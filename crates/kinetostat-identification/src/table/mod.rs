@@ -4,13 +4,15 @@
 //! semicolons or tabs the decimal sign may be a comma. All faults of a file are found in one run, each with row and column.
 
 mod columns;
+mod frame;
 mod read;
 
 use nalgebra::Vector3;
 
-use crate::experiment::{Observation, Reading, ReadingOf, TestLoad};
+use crate::experiment::{Branch, Observation, Reading, ReadingOf, TestLoad};
 
 pub use columns::COLUMNS;
+pub use frame::{InstrumentFrame, NoFrame, into_base};
 pub use read::read_table;
 
 /// A fault of a table.
@@ -65,6 +67,8 @@ pub struct MeasuredRow {
     pub deviation: Option<f64>,
     /// Standard deviation of turns, rad.
     pub turn_deviation: Option<f64>,
+    /// The load is taken off rather than put on, where the table says which.
+    pub unloading: Option<bool>,
 }
 
 /// Standard deviation of lengths where neither the table nor the caller states one, m: a good dial gauge or a laser tracker.
@@ -87,6 +91,15 @@ impl MeasuredRow {
     }
 }
 
+/// The largest load in the posture of a row at the same point.
+fn whole_load(rows: &[MeasuredRow], of: &MeasuredRow, gravity: &Vector3<f64>) -> Option<TestLoad> {
+    let same = rows
+        .iter()
+        .filter(|row| row.posture == of.posture && row.is_loaded() && row.load.at == of.load.at);
+    let loads = same.map(|row| row.load_under(gravity));
+    loads.max_by(|a, b| a.force.norm().total_cmp(&b.force.norm()))
+}
+
 /// Observations from rows: displacements as they are, and positions under a load less the mean of those of the same marker in the
 /// same posture without one. `gravity` (m/s^2, base axes) pulls at the masses.
 ///
@@ -107,7 +120,9 @@ pub fn observations(
         };
         let differs =
             row.read.displacement.is_some() || row.read.turn.is_some() || row.read.gauge.is_some();
-        if !row.is_loaded() {
+        // Behind a loop of loading and unloading, friction leaves a displacement without a load.
+        let closes_loop = differs && row.unloading == Some(true);
+        if !row.is_loaded() && !closes_loop {
             if differs {
                 faults.push(fault("a displacement without a load: all loads of this row are zero; give the load under which it was read, or positions (x_mm, y_mm, z_mm) of the unloaded tool"));
             }
@@ -154,6 +169,12 @@ pub fn observations(
             posture: row.posture.clone(),
             commands: row.commands.clone(),
             load: row.load_under(gravity),
+            branch: row.unloading.and_then(|unloading| {
+                Some(Branch {
+                    unloading,
+                    whole: whole_load(rows, row, gravity)?,
+                })
+            }),
             readings,
         });
     }

@@ -14,41 +14,58 @@ use crate::table::{MOST_FAULTS, MeasuredRow, Read, TableFault};
 /// another length; axes beyond their limits.
 pub fn read_table(text: &str, axes: &Axes<'_>) -> Result<Vec<MeasuredRow>, Vec<TableFault>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut lines = (1..)
-        .zip(text.lines())
-        .filter(|(_, l)| !l.trim().is_empty() && !l.trim_start().starts_with('#'));
-    let Some((head_line, head)) = lines.next() else {
-        return Err(vec![TableFault {
-            line: 1,
-            column: None,
-            found: None,
-            message: "the table is empty".to_owned(),
-        }]);
-    };
+    let is_row = |l: &&str| !l.trim().is_empty() && !l.trim_start().starts_with('#');
+    let head = text.lines().find(is_row).unwrap_or_default();
     let separator = [';', '\t']
         .into_iter()
         .find(|s| head.contains(*s))
         .unwrap_or(',');
-    let heads: Vec<&str> = split(head, separator);
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(separator as u8)
+        .has_headers(false)
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .comment(Some(b'#'))
+        .from_reader(text.as_bytes());
+    let mut records = reader
+        .records()
+        .filter(|r| !r.as_ref().is_ok_and(|r| r.iter().all(str::is_empty)));
+    let about_file = |line: usize, message: String| TableFault {
+        line,
+        column: None,
+        found: None,
+        message,
+    };
+    let head = match records.next() {
+        None => return Err(vec![about_file(1, "the table is empty".to_owned())]),
+        Some(Err(error)) => return Err(vec![about_file(line_of(&error), error.to_string())]),
+        Some(Ok(head)) => head,
+    };
+    let heads: Vec<&str> = head.iter().collect();
+    let head_line = head.position().map_or(1, |p| p.line() as usize);
     let mut faults = Vec::new();
     let columns = columns(&heads, head_line, axes, &mut faults);
     let mut rows = Vec::new();
-    for (line, content) in lines {
+    for record in records {
         if faults.len() >= MOST_FAULTS {
             break;
         }
-        let cells = split(content, separator);
+        let record = match record {
+            Ok(record) => record,
+            Err(error) => {
+                faults.push(about_file(line_of(&error), error.to_string()));
+                continue;
+            }
+        };
+        let line = record.position().map_or(0, |p| p.line() as usize);
+        let cells: Vec<&str> = record.iter().collect();
         if cells.len() != heads.len() {
-            faults.push(TableFault {
-                line,
-                column: None,
-                found: None,
-                message: format!(
-                    "{} cells, but the header has {} columns",
-                    cells.len(),
-                    heads.len()
-                ),
-            });
+            let message = format!(
+                "{} cells, but the header has {} columns",
+                cells.len(),
+                heads.len()
+            );
+            faults.push(about_file(line, message));
             continue;
         }
         let before = faults.len();
@@ -65,12 +82,10 @@ pub fn read_table(text: &str, axes: &Axes<'_>) -> Result<Vec<MeasuredRow>, Vec<T
         }
     }
     if rows.is_empty() && faults.is_empty() {
-        faults.push(TableFault {
-            line: head_line,
-            column: None,
-            found: None,
-            message: "the table has a header and no rows".to_owned(),
-        });
+        faults.push(about_file(
+            head_line,
+            "the table has a header and no rows".to_owned(),
+        ));
     }
     match faults.is_empty() {
         true => Ok(rows),
@@ -78,11 +93,8 @@ pub fn read_table(text: &str, axes: &Axes<'_>) -> Result<Vec<MeasuredRow>, Vec<T
     }
 }
 
-/// Cells of a line without the spaces and quotes around them.
-fn split(line: &str, separator: char) -> Vec<&str> {
-    line.split(separator)
-        .map(|cell| cell.trim().trim_matches('"').trim())
-        .collect()
+fn line_of(error: &csv::Error) -> usize {
+    error.position().map_or(1, |p| p.line() as usize)
 }
 
 /// Component of a vector that a column holds.
@@ -240,12 +252,29 @@ impl Row<'_> {
         let (mut turn, mut gauge, mut direction) = ([None; 3], None, [None; 3]);
         let (mut deviation, mut turn_deviation) = (None, None);
         let mut posture = None;
+        let mut unloading = None;
         for ((column, cell), head) in self.columns.iter().zip(self.cells).zip(self.heads) {
             let Some(column) = column else { continue };
             if let Column::Posture = column {
                 posture = Some((*cell).to_owned()).filter(|name| !name.is_empty());
             }
-            if matches!(column, Column::Posture | Column::Note) {
+            if let Column::Branch = column {
+                unloading = match *cell {
+                    "" => None,
+                    "loading" => Some(false),
+                    "unloading" => Some(true),
+                    other => {
+                        faults.push(TableFault {
+                            line: self.line,
+                            column: Some((*head).to_owned()),
+                            found: Some(other.to_owned()),
+                            message: "write loading or unloading".to_owned(),
+                        });
+                        None
+                    }
+                };
+            }
+            if matches!(column, Column::Posture | Column::Note | Column::Branch) {
                 continue;
             }
             // What was not read may stay empty; a load that is not there is zero.
@@ -268,7 +297,7 @@ impl Row<'_> {
                 continue;
             };
             match *column {
-                Column::Posture | Column::Note => {}
+                Column::Posture | Column::Note | Column::Branch => {}
                 Column::Axis(i, unit) => shown[i] = number * unit,
                 Column::Force(k, unit) => load.force[k] = number * unit,
                 Column::Moment(k, unit) => load.moment[k] = number * unit,
@@ -322,7 +351,7 @@ impl Row<'_> {
             }),
             ..read
         };
-        if read == Read::default() {
+        if read == Read::default() && self.cells_of_readings_are_empty() {
             fault("nothing was read in this row".to_owned());
         }
         let commands = axes.commands(&shown)?;
@@ -340,7 +369,27 @@ impl Row<'_> {
             read,
             deviation,
             turn_deviation,
+            unloading,
         })
+    }
+
+    /// A reading with a fault is not missing.
+    fn cells_of_readings_are_empty(&self) -> bool {
+        let is_reading = |c: &Option<Column>| {
+            matches!(
+                c,
+                Some(
+                    Column::Displacement(..)
+                        | Column::Position(..)
+                        | Column::Turn(..)
+                        | Column::Gauge(_)
+                )
+            )
+        };
+        let cells = self.columns.iter().zip(self.cells);
+        cells
+            .filter(|(c, _)| is_reading(c))
+            .all(|(_, cell)| cell.is_empty())
     }
 
     fn number(&self, cell: &str) -> Option<f64> {

@@ -246,7 +246,7 @@ fn wrong_input_is_refused() {
     let out = refuse(&[Constraint::NonNegative(3)]);
     assert_eq!(
         out,
-        ConeError::ColumnOutOfRange {
+        ConeError::Column {
             column: 3,
             columns: 3
         }
@@ -255,7 +255,13 @@ fn wrong_input_is_refused() {
     assert_eq!(refuse(&[semidefinite(&[0, 1])]), ConeError::Triangle(2));
     assert_eq!(refuse(&[semidefinite(&[])]), ConeError::Triangle(0));
     let twice = refuse(&[semidefinite(&[0, 1, 2]), Constraint::NonNegative(1)]);
-    assert_eq!(twice, ConeError::ColumnTwice(1));
+    assert_eq!(
+        twice,
+        ConeError::Column {
+            column: 1,
+            columns: 3
+        }
+    );
 
     let short = DVector::zeros(5);
     let error = ConeLeastSquares::new(&a, &short, &[])

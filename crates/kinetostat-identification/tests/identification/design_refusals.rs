@@ -4,7 +4,7 @@ use crate::candidates::{p9, random_candidates, three_r_test_pose};
 use crate::regressors::{Arm, markers, tool_point};
 use crate::support::Random;
 use kinetostat_identification::design::{
-    Criterion, DesignError, DesignSettings, InputMatrix, continuous, evaluate, exact,
+    Criterion, DesignError, DesignSettings, continuous, evaluate, exact,
 };
 use nalgebra::{DMatrix, Vector3};
 
@@ -37,15 +37,18 @@ fn a_weight_does_not_load_the_vertical_joint() {
         Criterion::Determinant,
         Criterion::WorstDirection,
     ] {
-        let Err(DesignError::NotIdentifiable(lost)) =
-            exact(&candidates, &criterion, 12, &DesignSettings::default())
+        let Err(DesignError::NotIdentifiable {
+            rank,
+            parameters,
+            combinations,
+        }) = exact(&candidates, &criterion, 12, &DesignSettings::default())
         else {
             panic!("joint 1 was identified");
         };
-        assert_eq!((lost.rank, lost.parameters), (5, 6));
-        assert_eq!(lost.combinations.shape(), (6, 1));
-        assert!((lost.combinations[(0, 0)].abs() - 1.0).abs() < 1e-12);
-        assert!(lost.combinations.rows(1, 5).amax() < 1e-9);
+        assert_eq!((rank, parameters), (5, 6));
+        assert_eq!(combinations.shape(), (6, 1));
+        assert!((combinations[(0, 0)].abs() - 1.0).abs() < 1e-12);
+        assert!(combinations.rows(1, 5).amax() < 1e-9);
         // A prior for joint 1 makes the rest identifiable.
         let mut prior = DMatrix::zeros(6, 6);
         prior[(0, 0)] = 1e12;
@@ -61,16 +64,19 @@ fn unobserved_combination_is_named() {
         .iter()
         .map(|a| DMatrix::from_fn(2, 3, |i, j| a[(i, j % 2)] * if j == 2 { 4.0 } else { 1.0 }))
         .collect();
-    let Err(DesignError::NotIdentifiable(lost)) = continuous(
+    let Err(DesignError::NotIdentifiable {
+        rank, combinations, ..
+    }) = continuous(
         &candidates,
         &Criterion::Determinant,
         3,
         &DesignSettings::default(),
-    ) else {
+    )
+    else {
         panic!("identified");
     };
-    assert_eq!(lost.rank, 2);
-    let c = lost.combinations.column(0);
+    assert_eq!(rank, 2);
+    let c = combinations.column(0);
     assert!((c[0] + 4.0 * c[2]).abs() < 1e-12 && c[1].abs() < 1e-12 && c.amax() == 1.0);
 }
 
@@ -150,7 +156,7 @@ fn one_candidate() {
             4,
             &DesignSettings::default()
         ),
-        Err(DesignError::TooFewCandidates {
+        Err(DesignError::Count {
             count: 4,
             candidates: 1
         })
@@ -184,7 +190,7 @@ fn count_of_the_whole_list() {
     assert!(all.efficiency.unwrap() > 1.0 - 1e-9);
     assert_eq!(
         exact(&candidates, &l, 21, &DesignSettings::default()),
-        Err(DesignError::TooFewCandidates {
+        Err(DesignError::Count {
             count: 21,
             candidates: 20
         })
@@ -217,7 +223,7 @@ fn invalid_numbers_are_refused() {
     for bad in [f64::NAN, f64::INFINITY, -f64::INFINITY, 1e200] {
         let mut candidates = p9();
         candidates[6][(1, 2)] = bad;
-        let refused = DesignError::CandidateNotFinite { candidate: 6 };
+        let refused = DesignError::CandidateNotFinite(6);
         assert_eq!(exact(&candidates, &l, 3, &settings), Err(refused.clone()));
         assert_eq!(
             continuous(&candidates, &l, 3, &settings),
@@ -235,13 +241,15 @@ fn invalid_numbers_are_refused() {
         assert_eq!(
             exact(&p9(), &Criterion::TestPoses(bad.clone()), 3, &settings),
             Err(DesignError::NotSemidefinite {
-                matrix: InputMatrix::TestPoses
+                matrix: "matrix of the test poses",
+                parameters: 3
             })
         );
         assert_eq!(
             exact(&p9(), &l, 3, &with_fixed(bad)),
             Err(DesignError::NotSemidefinite {
-                matrix: InputMatrix::FixedInformation
+                matrix: "fixed information",
+                parameters: 3
             })
         );
     }
@@ -252,7 +260,7 @@ fn invalid_numbers_are_refused() {
         };
         assert!(matches!(
             exact(&p9(), &l, 3, &settings),
-            Err(DesignError::SettingOutsideRange { setting: "gap", .. })
+            Err(DesignError::Gap(_))
         ));
     }
 }
@@ -271,11 +279,17 @@ fn invalid_shapes_are_refused() {
     );
     assert_eq!(
         exact(&p9(), &average, 0, &settings),
-        Err(DesignError::ZeroCount)
+        Err(DesignError::Count {
+            count: 0,
+            candidates: 20
+        })
     );
     assert_eq!(
         evaluate(&p9(), &[], &average, &settings),
-        Err(DesignError::ZeroCount)
+        Err(DesignError::Count {
+            count: 0,
+            candidates: 20
+        })
     );
     for (rows, columns) in [(3, 2), (0, 3)] {
         let mut candidates = p9();
@@ -297,10 +311,8 @@ fn invalid_shapes_are_refused() {
             3,
             &settings
         ),
-        Err(DesignError::MatrixShape {
-            matrix: InputMatrix::TestPoses,
-            rows: 2,
-            columns: 2,
+        Err(DesignError::NotSemidefinite {
+            matrix: "matrix of the test poses",
             parameters: 3
         })
     );

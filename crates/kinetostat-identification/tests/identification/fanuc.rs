@@ -21,11 +21,16 @@ const GEOMETRY: [[f64; 4]; 6] = [
     [-1.0, 0.0, 0.0, 0.215],
 ];
 
-/// The arm as a model file, with rotational springs about x, y and z at the base and at every joint if wanted.
+/// The arm as a model file, with rotational springs about x and y at every joint, and about x, y and z at the base, if wanted: a drive is the spring about z.
 fn arm(tilts: bool) -> anyhow::Result<Model> {
     let mut elements = String::new();
     let tilt = |elements: &mut String, i: usize| {
-        for axis in ["x", "y", "z"].iter().filter(|_| tilts) {
+        let axes: &[&str] = if i == 0 {
+            &["x", "y", "z"]
+        } else {
+            &["x", "y"]
+        };
+        for axis in axes.iter().filter(|_| tilts) {
             let _ = writeln!(
                 elements,
                 "{{ spring = \"revolute\", name = \"tilt {i} {axis}\", axis = \"{axis}\", stiffness_n_m_per_rad = 1e7 }},"
@@ -56,7 +61,7 @@ fn table() -> Option<String> {
         "/../../../shared/data/identification/fanuc_r2000ic_cable_pulls.csv"
     );
     let Ok(text) = std::fs::read_to_string(file) else {
-        println!("skipped: {file} is not there");
+        eprintln!("skipped: {file} is not there");
         return None;
     };
     let mut out = String::from(
@@ -91,7 +96,7 @@ fn identified(tilts: bool) -> anyhow::Result<Option<Identification>> {
     let observations =
         observations(&rows, &Vector3::zeros()).map_err(|faults| anyhow::anyhow!("{faults:?}"))?;
     let patterns: &[&str] = match tilts {
-        true => &["chain.arm.tilt*"],
+        true => &["joints", "chain.arm.tilt*"],
         false => &["joints"],
     };
     let unknowns = Unknowns::matching(&model, patterns)?;

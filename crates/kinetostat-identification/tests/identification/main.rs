@@ -11,5 +11,7 @@ mod generator;
 mod joints;
 mod link_problem;
 mod links;
+mod machines;
 mod regressors;
 mod support;
+mod tables;

@@ -165,6 +165,7 @@ pub fn asked(
         posture: posture.to_string(),
         commands,
         load,
+        branch: None,
         readings,
     }
 }

@@ -26,7 +26,8 @@ use crate::assembly::mechanism::mechanism_of;
 use crate::findings::Findings;
 use crate::model::{Model, move_home_within_reach};
 use crate::problem::ModelError;
-use crate::schema::Document;
+pub use crate::text::edit::NumberEdit;
+use crate::text::edit::edited;
 
 impl Model {
     /// Every number of the model file, in the order of the file's tables, with factors on sections and stiffnesses.
@@ -65,19 +66,32 @@ impl Model {
         Self::from_document(&document, &parametric.file)
     }
 
-    /// The model with other words about the sources of some numbers, by their paths: those of the element, section or stiffness that
-    /// has the number. Paths of other numbers are passed over.
+    /// The model with other numbers and words about their source, with everything else of its text as it is.
+    ///
+    /// ```
+    /// use kinetostat_model::{Model, NumberEdit};
+    /// let model = Model::preset("heavy_6r")?;
+    /// let softer = model.edited(&[NumberEdit {
+    ///     path: "chain.arm.joint 2.stiffness_n_m_per_rad".into(),
+    ///     value: 6.1e6,
+    ///     source: Some("measured".into()),
+    /// }])?;
+    /// assert_eq!(softer.text.lines().count(), model.text.lines().count());
+    /// assert!(softer.text.contains("stiffness_n_m_per_rad = 6100000.0"));
+    /// # Ok::<(), kinetostat_model::ModelError>(())
+    /// ```
+    ///
+    /// Where a number does not stand in the text as its path says (one of a single limb, a deviation that the file does not have, a
+    /// factor), the document is written anew, without comments.
     ///
     /// # Errors
-    /// [`ModelError`] as for a file with these words; cannot happen for a model that was read.
-    pub fn with_sources(&self, sources: &[(&str, String)]) -> Result<Self, ModelError> {
-        let mut document = self.document.clone();
-        for (path, words) in sources {
-            if let Some(source) = source_of(&mut document, path) {
-                *source = Some(words.clone());
-            }
+    /// As [`with_parameters`](Self::with_parameters).
+    pub fn edited(&self, edits: &[NumberEdit]) -> Result<Self, ModelError> {
+        if let Some(text) = edited(&self.text, &self.document, edits) {
+            return Self::from_toml(&text, &self.changed());
         }
-        Self::from_document(&document, &self.changed())
+        let numbers: Vec<(&str, f64)> = edits.iter().map(|e| (e.path.as_str(), e.value)).collect();
+        self.with_parameters(&numbers)
     }
 
     /// The model as a function of some of its numbers.
@@ -90,35 +104,6 @@ impl Model {
             resolved,
             file: self.changed(),
         })
-    }
-}
-
-/// The words about the source of a number.
-fn source_of<'d>(document: &'d mut Document, path: &str) -> Option<&'d mut Option<String>> {
-    let (kind, rest) = path.split_once('.')?;
-    let is_in = |name: &str| {
-        rest.strip_prefix(name)
-            .is_some_and(|after| after.starts_with('.'))
-    };
-    match kind {
-        "chain" => {
-            let (name, chain) = document.chain.iter_mut().find(|(name, _)| is_in(name))?;
-            let rest = &rest[name.len() + 1..];
-            let mut elements = chain.elements.iter_mut().enumerate();
-            let (_, own) = elements.find(|(i, element)| {
-                let label = element.name_or_number(i + 1);
-                rest.strip_prefix(&label)
-                    .is_some_and(|after| after.starts_with('.'))
-            })?;
-            own.source_mut()
-        }
-        "section" => (document.section.iter_mut())
-            .find(|(name, _)| is_in(name))
-            .map(|(_, s)| &mut s.source),
-        "stiffness" => (document.stiffness.iter_mut())
-            .find(|(name, _)| is_in(name))
-            .map(|(_, s)| &mut s.source),
-        _ => None,
     }
 }
 

@@ -409,22 +409,6 @@ impl Element {
             .map_or_else(|| format!("{} {number}", self.word()), str::to_owned)
     }
 
-    /// The words about its source; none where it cannot have any.
-    pub(crate) fn source_mut(&mut self) -> Option<&mut Option<String>> {
-        Some(match self {
-            Self::Rigid(e) => &mut e.source,
-            Self::Actuator(e) => &mut e.source,
-            Self::Passive(e) => &mut e.source,
-            Self::Spring(e) => &mut e.source,
-            Self::Spring6(e) => &mut e.source,
-            Self::Link(e) => &mut e.source,
-            Self::Parallelogram(e) => &mut e.source,
-            Self::Coupled(e) => &mut e.source,
-            Self::Body(e) => &mut e.source,
-            Self::Node(_) => return None,
-        })
-    }
-
     /// The name as written, if it has one.
     #[must_use]
     pub fn name(&self) -> Option<&str> {

@@ -4,5 +4,6 @@
 //! and nothing of mechanics.
 
 pub(crate) mod check;
+pub(crate) mod edit;
 pub(crate) mod hints;
 pub(crate) mod source;

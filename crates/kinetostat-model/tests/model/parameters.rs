@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use kinetostat_model::{Model, Parameter, ParameterKind, preset_names};
+use kinetostat_model::{Model, NumberEdit, Parameter, ParameterKind, preset_names};
 use proptest::prelude::*;
 use toml::{Table, Value};
 
@@ -556,4 +556,50 @@ proptest! {
             (fast, slow) => prop_assert!(false, "{:?} {:?}", fast.err(), slow.err()),
         }
     }
+}
+
+/// Numbers are changed where they stand; comments, order and the rest of the text stay.
+#[test]
+fn numbers_are_changed_in_the_text() {
+    let text = "schema = 1\n# my machine\n[mechanism]\nname = \"m\"\n[[platform]]\nname = \"tool\"\nhome = { position_mm = [500, 0, 0] }\n[section.bar] # steel\nmaterial = \"steel\"\ntube = { outer_diameter_mm = 80, inner_diameter_mm = 60 } # measured\n[stiffness.cast]\nmatrix_n_m_rad = [\n  [2e8, 0, 0, 0, 0, 0],\n  [0, 2e7, 0, 0, 0, 1e6],\n  [0, 0, 2e7, 0, -1e6, 0],\n  [0, 0, 0, 1e6, 0, 0],\n  [0, 0, -1e6, 0, 2e6, 0],\n  [0, 1e6, 0, 0, 0, 2e6],\n]\n[chain.arm]\nelements = [\n  # first\n  { actuator = \"revolute\", name = \"A1\", axis = \"z\", stiffness_n_m_per_rad = 1e6 }, # drive\n  { spring6 = \"cast\" },\n]\n[[chain.arm.elements]]\nlink = \"bar\"\n";
+    let text = text.replace("]\n[[chain.arm.elements]]\nlink = \"bar\"\n", "  { link = \"bar\", length_mm = 500, source = \"drawing\" },\n]\n[[limb]]\nname = \"arm\"\nfrom = \"base\"\nto = \"tool\"\nchain = \"arm\"\n");
+    let model = Model::from_toml(&text, "m.toml").unwrap();
+    let edit = |path: &str, value: f64, source: Option<&str>| NumberEdit {
+        path: path.to_owned(),
+        value,
+        source: source.map(str::to_owned),
+    };
+    let changed = model
+        .edited(&[
+            edit(
+                "chain.arm.A1.stiffness_n_m_per_rad",
+                1_234_567.891_23,
+                Some("measured, \"3 %\""),
+            ),
+            edit("chain.arm.link 3.length_mm", 501.5, Some("measured")),
+            edit("section.bar.tube.outer_diameter_mm", 79.0, Some("caliper")),
+            edit("stiffness.cast.matrix_n_m_rad.y.rz", 1.5e6, None),
+        ])
+        .unwrap();
+    let want = [
+        "stiffness_n_m_per_rad = 1234567.89, source = \"measured, \\\"3 %\\\"\" }, # drive",
+        "length_mm = 501.5, source = \"measured\" },",
+        "material = \"steel\"\nsource = \"caliper\"\n",
+        "outer_diameter_mm = 79.0, inner_diameter_mm = 60 } # measured\n",
+        "[0, 2e7, 0, 0, 0, 1500000.0]",
+        "[0, 1500000.0, 0, 0, 0, 2e6]",
+        "# my machine\n",
+        "  # first\n",
+    ];
+    for part in want {
+        let own = changed
+            .text
+            .replace("'measured, \"3 %\"'", "\"measured, \\\"3 %\\\"\"");
+        assert!(own.contains(part), "{part}\n{own}");
+    }
+    // A number of one limb does not stand in the file; the document is written anew with it.
+    let own = model
+        .edited(&[edit("limb.arm.link 3.length_mm", 502.0, None)])
+        .unwrap();
+    assert_ne!(own.mechanism, model.mechanism);
 }
