@@ -4,42 +4,52 @@
 //! laser tracker, it is measured in a morning. This crate holds the numbers of a model against such readings.
 //!
 //! ```text
-//! unknown        which numbers of the model, as compliances
-//! experiment     postures, loads, readings
-//! prediction     what the machine would show, and its derivatives
-//! least_squares  weighted least squares by postures
-//! fit            Gauss-Newton over both
+//! table              measurements as text: postures, loads, readings; the frame of the instrument
+//! experiment         the same as observations
+//! unknown            which numbers of the model, as compliances; springs, change: what they change
+//! prediction         what the machine would show, and its derivatives
+//! least_squares      weighted least squares by postures; cone: with physical constraints
+//! fit                Gauss-Newton steps over both
+//! identifiability    what the readings see
+//! result, findings   the numbers, and what must be known of them; written: as a model file
+//! plan, design       the postures in which to measure
 //! ```
 
 mod axes;
+mod change;
+mod compliance_matrix;
 mod cone;
 pub mod design;
 mod error;
 mod experiment;
+mod findings;
 mod fit;
 mod identifiability;
+mod identified;
 mod least_squares;
 mod plan;
 mod prediction;
 mod result;
+mod springs;
 mod table;
 mod unknown;
+mod written;
 
 pub use axes::Axes;
 pub use cone::{BlockState, ConeError, ConeLeastSquares, ConeSolution, Constraint, KktResidual};
 pub use error::IdentificationError;
 pub use experiment::{Branch, Observation, Reading, ReadingOf, TestLoad};
+pub use findings::Finding;
 pub use fit::{Fit, FitOptions, identify};
 pub use identifiability::{Combination, Identifiability, Knowledge, WEAK};
+pub use identified::{IdentifiedNumber, PostureResiduals};
 pub use least_squares::{HUBER, LinearFit, PostureRows, Start, UNSEEN, fit as least_squares};
 pub use plan::{Plan, PlanError, PlanTask, PlannedMeasurement, Purpose, Room, plan};
 pub use prediction::{Prediction, Theory, predict};
-pub use result::{
-    Finding, Identification, IdentifiedNumber, PostureResiduals, identification, identified_model,
-    uncertainty_file,
-};
+pub use result::{Identification, identification};
 pub use table::{
     COLUMNS, DEVIATION, InstrumentFrame, MOST_FAULTS, MeasuredRow, NoFrame, Read, TURN_DEVIATION,
     TableFault, into_base, observations, read_table,
 };
 pub use unknown::{Form, Unknown, Unknowns};
+pub use written::{identified_model, uncertainty_file};

@@ -19,9 +19,11 @@ use kinetostat::{Mechanism, MechanismEquilibrium, Pose, Posture, PostureRequest,
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3, Vector6};
 use rayon::prelude::*;
 
+use crate::change::Change;
 use crate::error::IdentificationError;
 use crate::experiment::{Observation, Reading, ReadingOf};
-use crate::unknown::{Change, SpringChange, Unknowns, drive_coordinates};
+use crate::springs::{SpringChange, drive_coordinates};
+use crate::unknown::Unknowns;
 
 /// Theory by which readings are predicted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,12 +4,14 @@
 //! readings would stand among the regressors. So a stiffness `k` is identified as `c = 1/k`, a 6 x 6 stiffness as the 21 numbers of
 //! its inverse, and the factor of a section as its reciprocal. Lengths and angles are identified as they are.
 
-use kinetostat::{Mechanism, MotionKind};
+use kinetostat::Mechanism;
 use kinetostat_model::{Model, Parameter, ParameterKind, ParametricModel};
-use nalgebra::{DMatrix, DVector, Matrix6};
+use nalgebra::DVector;
 
+use crate::compliance_matrix::{entries, inverse, matrix_of, with_unit_diagonal};
 use crate::cone::Constraint;
 use crate::error::IdentificationError;
+use crate::springs::{difference, drive_coordinates};
 
 /// Components of a 6 x 6 matrix as paths name them.
 const COMPONENTS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
@@ -47,20 +49,11 @@ pub struct Unknown {
     pub size: f64,
 }
 
-/// Change of the stiffness matrix of a spring of a limb by one unknown.
-#[derive(Clone, Debug)]
-pub(crate) struct SpringChange {
-    pub limb: usize,
-    /// First coordinate of the spring.
-    pub first: usize,
-    pub matrix: DMatrix<f64>,
-}
-
 /// Unknowns of a model, in an order.
 #[derive(Clone, Debug)]
 pub struct Unknowns {
-    parametric: ParametricModel,
-    list: Vec<Unknown>,
+    pub(crate) parametric: ParametricModel,
+    pub(crate) list: Vec<Unknown>,
 }
 
 impl Unknowns {
@@ -247,143 +240,6 @@ impl Unknowns {
     pub fn mechanism(&self, values: &DVector<f64>) -> Result<Mechanism, IdentificationError> {
         Ok(self.parametric.mechanism(&self.in_file(values))?)
     }
-
-    /// How the machine changes with every unknown, at certain values of them.
-    pub(crate) fn changes(
-        &self,
-        values: &DVector<f64>,
-    ) -> Result<Vec<Change>, IdentificationError> {
-        let own = self.in_file(values);
-        let mut by_number = Vec::with_capacity(own.len());
-        let of_model = self.list.iter().filter(|u| u.form != Form::Friction);
-        for (i, unknown) in of_model.enumerate() {
-            // The springs are linear in the number, so that a large step is exact.
-            let step = match unknown.form {
-                Form::Compliance => 0.25 * own[i],
-                Form::MatrixEntry(..) => {
-                    1e-3 * stiffness_size(&self.list, i) / unknown.parameter.in_si
-                }
-                Form::Parallel => 0.5 * own[i],
-                Form::Value | Form::Friction => 1e-2 * unknown.size / unknown.parameter.in_si,
-            };
-            let at = |sign: f64| {
-                let mut moved = own.clone();
-                moved[i] += sign * step;
-                self.parametric.mechanism(&moved)
-            };
-            let (more, less) = (at(1.0)?, at(-1.0)?);
-            let double = 2.0 * step * unknown.parameter.in_si;
-            let springs = match unknown.form {
-                Form::Value | Form::Parallel | Form::Friction => Vec::new(),
-                _ => difference(&more, &less, double),
-            };
-            by_number.push(match springs.is_empty() {
-                true => Change::Machine {
-                    more,
-                    less,
-                    step: double,
-                },
-                false => Change::Springs(springs),
-            });
-        }
-        let mut out = self.by_compliance(values, by_number);
-        out.resize_with(self.list.len(), || Change::Friction);
-        Ok(out)
-    }
-
-    /// From derivatives by stiffnesses to those by compliances.
-    fn by_compliance(&self, values: &DVector<f64>, by_number: Vec<Change>) -> Vec<Change> {
-        let mut out = Vec::with_capacity(by_number.len());
-        for (i, (unknown, change)) in self.list.iter().zip(&by_number).enumerate() {
-            let factor = -values[i].powi(-2);
-            out.push(match (unknown.form, change) {
-                (Form::Compliance, Change::Springs(springs)) => {
-                    Change::Springs(scaled(springs, factor))
-                }
-                (Form::Compliance, Change::Machine { more, less, step }) => Change::Machine {
-                    more: more.clone(),
-                    less: less.clone(),
-                    step: step / factor,
-                },
-                (Form::MatrixEntry(row, column), _) => {
-                    let first = i - entries().position(|e| e == (row, column)).unwrap_or(0);
-                    let upper = values.rows(first, 21).into_owned();
-                    Change::Springs(of_entry(&upper, row, column, &by_number[first..first + 21]))
-                }
-                (_, own) => own.clone(),
-            });
-        }
-        out
-    }
-}
-
-/// How a machine changes with one unknown.
-#[derive(Clone, Debug)]
-pub(crate) enum Change {
-    /// Springs only.
-    Springs(Vec<SpringChange>),
-    /// Anything: two machines, and the difference of the unknown between them.
-    Machine {
-        more: Mechanism,
-        less: Mechanism,
-        step: f64,
-    },
-    /// Not at all: a drive that friction holds back. They stand behind all others, in the order of the drives.
-    Friction,
-}
-
-/// Kind of the coordinate of every drive that gives way, and where it is: limb, and index among its coordinates.
-pub(crate) fn drive_coordinates(
-    mechanism: &Mechanism,
-) -> Vec<(ParameterKind, Option<(usize, usize)>)> {
-    let limbs = mechanism.limbs().iter().enumerate();
-    let drives = limbs.flat_map(|(limb, own)| {
-        own.actual.actuators().iter().map(move |drive| {
-            let kind = match drive.kind {
-                MotionKind::Prismatic => ParameterKind::Length,
-                MotionKind::Revolute => ParameterKind::Angle,
-            };
-            (kind, drive.coordinate.map(|c| (limb, c)))
-        })
-    });
-    drives.collect()
-}
-
-fn scaled(springs: &[SpringChange], factor: f64) -> Vec<SpringChange> {
-    let each = springs.iter();
-    each.map(|s| SpringChange {
-        matrix: &s.matrix * factor,
-        ..s.clone()
-    })
-    .collect()
-}
-
-/// Change of the springs with an entry of a compliance matrix, from their changes with the entries of its inverse: `dK = -K dC K`.
-fn of_entry(
-    upper: &DVector<f64>,
-    row: usize,
-    column: usize,
-    by_stiffness: &[Change],
-) -> Vec<SpringChange> {
-    let stiffness = inverse(&matrix_of(upper));
-    let mut unit = Matrix6::zeros();
-    unit[(row, column)] = 1.0;
-    unit[(column, row)] = 1.0;
-    let change = -stiffness * unit * stiffness;
-    let mut sum: Vec<SpringChange> = Vec::new();
-    for ((r, c), by_stiffness) in entries().zip(by_stiffness) {
-        let Change::Springs(springs) = by_stiffness else {
-            continue;
-        };
-        for part in scaled(springs, change[(r, c)]) {
-            let same = |s: &&mut SpringChange| s.limb == part.limb && s.first == part.first;
-            match sum.iter_mut().find(same) {
-                Some(own) => own.matrix += part.matrix,
-                None => sum.push(part),
-            }
-        }
-    }
-    sum
 }
 
 /// Paths of the stiffnesses of all drives.
@@ -431,36 +287,6 @@ fn matches(pattern: &str, path: &str) -> bool {
         }
     }
     rest.ends_with(last)
-}
-
-/// Row and column of the upper triangle of a 6 x 6 matrix, row by row.
-pub(crate) fn entries() -> impl Iterator<Item = (usize, usize)> {
-    (0..6).flat_map(|row| (row..6).map(move |column| (row, column)))
-}
-
-fn matrix_of(upper: &DVector<f64>) -> Matrix6<f64> {
-    let mut matrix = Matrix6::zeros();
-    for ((row, column), value) in entries().zip(upper.iter()) {
-        matrix[(row, column)] = *value;
-        matrix[(column, row)] = *value;
-    }
-    matrix
-}
-
-/// A matrix of metres and radians in units in which its diagonal is one.
-fn with_unit_diagonal(matrix: &Matrix6<f64>) -> Matrix6<f64> {
-    let scale = matrix.diagonal().map(|d| 1.0 / d.abs().sqrt());
-    Matrix6::from_fn(|i, j| matrix[(i, j)] * scale[i] * scale[j])
-}
-
-/// Inverse of a symmetric matrix of metres and radians, scaled by its diagonal; not a number where it has none.
-fn inverse(matrix: &Matrix6<f64>) -> Matrix6<f64> {
-    let scale = matrix.diagonal().map(|d| 1.0 / d.abs().sqrt());
-    let scaled = Matrix6::from_fn(|i, j| matrix[(i, j)] * scale[i] * scale[j]);
-    let found = scaled
-        .try_inverse()
-        .unwrap_or_else(|| Matrix6::repeat(f64::NAN));
-    Matrix6::from_fn(|i, j| found[(i, j)] * scale[i] * scale[j])
 }
 
 /// Path of the matrix to which a number belongs, with its row and column.
@@ -551,38 +377,4 @@ fn value_size(parameter: &Parameter) -> f64 {
         ParameterKind::Mass => (parameter.value * parameter.in_si).abs().max(1.0),
         _ => 1e-3,
     }
-}
-
-/// Size of an entry of a stiffness matrix, SI: the mean of its diagonal ones.
-fn stiffness_size(list: &[Unknown], at: usize) -> f64 {
-    let Form::MatrixEntry(row, column) = list[at].form else {
-        return 1.0;
-    };
-    let first = at - entries().position(|e| e == (row, column)).unwrap_or(0);
-    let diagonal = |k: usize| {
-        let own = first + entries().position(|e| e == (k, k)).unwrap_or(0);
-        (list[own].parameter.value * list[own].parameter.in_si).abs()
-    };
-    (diagonal(row) * diagonal(column)).sqrt()
-}
-
-/// Springs in which two machines differ, divided by a step.
-fn difference(more: &Mechanism, less: &Mechanism, step: f64) -> Vec<SpringChange> {
-    let mut out = Vec::new();
-    for (limb, (a, b)) in more.limbs().iter().zip(less.limbs()).enumerate() {
-        let (a, b) = (&a.actual, &b.actual);
-        let home = a.home_coordinates();
-        for (one, other) in a.springs().iter().zip(b.springs()) {
-            if one == other {
-                continue;
-            }
-            let matrix = (one.stiffness_at(&home) - other.stiffness_at(&home)) / step;
-            out.push(SpringChange {
-                limb,
-                first: one.first,
-                matrix,
-            });
-        }
-    }
-    out
 }

@@ -598,3 +598,43 @@ fn friction_makes_one_branch_too_stiff_and_is_found_from_both() -> Outcome {
     assert!(worst(&found.as_slice()[6..], &offsets) < 1e-6, "{found}");
     Ok(())
 }
+
+#[test]
+fn exchanged_markers_are_named() -> Outcome {
+    let model = h6(false);
+    let mut random = Random::new(23);
+    let mut observations: Vec<Observation> = Vec::new();
+    for i in 0..8 {
+        let commands = angles(&mut random);
+        let load = TestLoad::force_at(TOOL, random.vector(2000.0));
+        for marker in [vector![0.3, 0.3, 0.0], vector![-0.3, -0.3, 0.1]] {
+            let readings = Reading::displacement(marker, &Vector3::zeros(), 10e-6).into();
+            observations.push(asked(i, commands.clone(), load, readings));
+        }
+    }
+    read(&model, &mut observations, Theory::SmallLoads, |r| {
+        r.deviation * random.normal()
+    })?;
+    let unknowns = Unknowns::matching(&model, &["joints"])?;
+    let options = FitOptions {
+        theory: Theory::SmallLoads,
+        robust: true,
+        prior: None,
+    };
+    let exchanged = |observations: &[Observation]| -> anyhow::Result<Vec<String>> {
+        let found = identification(&unknowns, observations, &options)?;
+        let names = found.findings.into_iter().filter_map(|f| match f {
+            Finding::Exchanged { posture, .. } => Some(posture),
+            _ => None,
+        });
+        Ok(names.collect())
+    };
+    assert!(exchanged(&observations)?.is_empty());
+    let values: Vec<f64> = observations[6].readings.iter().map(|r| r.value).collect();
+    for k in 0..3 {
+        observations[6].readings[k].value = observations[7].readings[k].value;
+        observations[7].readings[k].value = values[k];
+    }
+    assert_eq!(exchanged(&observations)?, ["3"]);
+    Ok(())
+}

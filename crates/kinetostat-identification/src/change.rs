@@ -1,0 +1,135 @@
+//! How a machine changes with the unknowns: the springs' matrices, or the whole machine.
+
+use kinetostat::Mechanism;
+use nalgebra::{DVector, Matrix6};
+
+use crate::compliance_matrix::{entries, inverse, matrix_of};
+use crate::error::IdentificationError;
+use crate::springs::{SpringChange, difference, scaled};
+use crate::unknown::{Form, Unknown, Unknowns};
+
+/// How a machine changes with one unknown.
+#[derive(Clone, Debug)]
+pub(crate) enum Change {
+    /// Springs only.
+    Springs(Vec<SpringChange>),
+    /// Anything: two machines, and the difference of the unknown between them.
+    Machine {
+        more: Mechanism,
+        less: Mechanism,
+        step: f64,
+    },
+    /// Not at all: a drive that friction holds back. They stand behind all others, in the order of the drives.
+    Friction,
+}
+
+/// Change of the springs with an entry of a compliance matrix, from their changes with the entries of its inverse: `dK = -K dC K`.
+fn of_entry(
+    upper: &DVector<f64>,
+    row: usize,
+    column: usize,
+    by_stiffness: &[Change],
+) -> Vec<SpringChange> {
+    let stiffness = inverse(&matrix_of(upper));
+    let mut unit = Matrix6::zeros();
+    unit[(row, column)] = 1.0;
+    unit[(column, row)] = 1.0;
+    let change = -stiffness * unit * stiffness;
+    let mut sum: Vec<SpringChange> = Vec::new();
+    for ((r, c), by_stiffness) in entries().zip(by_stiffness) {
+        let Change::Springs(springs) = by_stiffness else {
+            continue;
+        };
+        for part in scaled(springs, change[(r, c)]) {
+            let same = |s: &&mut SpringChange| s.limb == part.limb && s.first == part.first;
+            match sum.iter_mut().find(same) {
+                Some(own) => own.matrix += part.matrix,
+                None => sum.push(part),
+            }
+        }
+    }
+    sum
+}
+
+impl Unknowns {
+    /// How the machine changes with every unknown, at certain values of them.
+    pub(crate) fn changes(
+        &self,
+        values: &DVector<f64>,
+    ) -> Result<Vec<Change>, IdentificationError> {
+        let own = self.in_file(values);
+        let mut by_number = Vec::with_capacity(own.len());
+        let of_model = self.list.iter().filter(|u| u.form != Form::Friction);
+        for (i, unknown) in of_model.enumerate() {
+            // The springs are linear in the number, so that a large step is exact.
+            let step = match unknown.form {
+                Form::Compliance => 0.25 * own[i],
+                Form::MatrixEntry(..) => {
+                    1e-3 * stiffness_size(&self.list, i) / unknown.parameter.in_si
+                }
+                Form::Parallel => 0.5 * own[i],
+                Form::Value | Form::Friction => 1e-2 * unknown.size / unknown.parameter.in_si,
+            };
+            let at = |sign: f64| {
+                let mut moved = own.clone();
+                moved[i] += sign * step;
+                self.parametric.mechanism(&moved)
+            };
+            let (more, less) = (at(1.0)?, at(-1.0)?);
+            let double = 2.0 * step * unknown.parameter.in_si;
+            let springs = match unknown.form {
+                Form::Value | Form::Parallel | Form::Friction => Vec::new(),
+                _ => difference(&more, &less, double),
+            };
+            by_number.push(match springs.is_empty() {
+                true => Change::Machine {
+                    more,
+                    less,
+                    step: double,
+                },
+                false => Change::Springs(springs),
+            });
+        }
+        let mut out = self.by_compliance(values, by_number);
+        out.resize_with(self.list.len(), || Change::Friction);
+        Ok(out)
+    }
+
+    /// From derivatives by stiffnesses to those by compliances.
+    fn by_compliance(&self, values: &DVector<f64>, by_number: Vec<Change>) -> Vec<Change> {
+        let mut out = Vec::with_capacity(by_number.len());
+        for (i, (unknown, change)) in self.list.iter().zip(&by_number).enumerate() {
+            let factor = -values[i].powi(-2);
+            out.push(match (unknown.form, change) {
+                (Form::Compliance, Change::Springs(springs)) => {
+                    Change::Springs(scaled(springs, factor))
+                }
+                (Form::Compliance, Change::Machine { more, less, step }) => Change::Machine {
+                    more: more.clone(),
+                    less: less.clone(),
+                    step: step / factor,
+                },
+                (Form::MatrixEntry(row, column), _) => {
+                    let first = i - entries().position(|e| e == (row, column)).unwrap_or(0);
+                    let upper = values.rows(first, 21).into_owned();
+                    Change::Springs(of_entry(&upper, row, column, &by_number[first..first + 21]))
+                }
+                (_, own) => own.clone(),
+            });
+        }
+        out
+    }
+}
+
+/// Size of an entry of a stiffness matrix, SI: the mean of its diagonal ones.
+fn stiffness_size(list: &[Unknown], at: usize) -> f64 {
+    let Form::MatrixEntry(row, column) = list[at].form else {
+        return 1.0;
+    };
+    let first = at - entries().position(|e| e == (row, column)).unwrap_or(0);
+    let diagonal = |k: usize| {
+        let own = first + entries().position(|e| e == (k, k)).unwrap_or(0);
+        (list[own].parameter.value * list[own].parameter.in_si).abs()
+    };
+    (diagonal(row) * diagonal(column)).sqrt()
+}

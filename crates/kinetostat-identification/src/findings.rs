@@ -1,0 +1,236 @@
+//! What a reader of an identification must know beside its numbers.
+
+use std::fmt;
+
+use nalgebra::DVector;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::experiment::{Observation, ReadingOf};
+use crate::fit::Fit;
+use crate::identifiability::Knowledge;
+use crate::identified::{IdentifiedNumber, PostureResiduals};
+use crate::least_squares::{LinearFit, SCATTER};
+
+/// Something that a reader of the result must know.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(tag = "finding", rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Finding {
+    /// No reading sees a number alone.
+    Unseen {
+        /// Path of the number.
+        number: String,
+        /// The combination that is seen, if it takes part in one.
+        known: Option<String>,
+    },
+    /// Noise hides a number.
+    Weak {
+        /// Path of the number.
+        number: String,
+        /// Its standard deviation, percent.
+        deviation_percent: f64,
+    },
+    /// A spring beside the joints came out without stiffness.
+    Absent {
+        /// Path of the number.
+        number: String,
+    },
+    /// A compliance came out at zero, its bound: the readings do not tell it from rigid.
+    Rigid {
+        /// Path of the number.
+        number: String,
+    },
+    /// A posture that fits far worse than the others.
+    Outlier {
+        /// Name of the posture.
+        posture: String,
+        /// Its residual against the fit to all others, in those of the median posture.
+        times: f64,
+    },
+    /// The displacements of two markers fit far better the other way round.
+    Exchanged {
+        /// Name of the posture.
+        posture: String,
+        /// Places of the markers in the tool's frame, mm.
+        markers_mm: [[f64; 3]; 2],
+    },
+    /// Readings scatter more about the fit than they should.
+    Scatter {
+        /// Standard deviation about the fit, in stated ones.
+        times: f64,
+    },
+    /// Nothing is left to tell how well the model fits.
+    NoRedundancy,
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unseen {
+                number,
+                known: None,
+            } => write!(
+                f,
+                "{number}: no reading depends on it; it keeps the value of the model"
+            ),
+            Self::Unseen {
+                number,
+                known: Some(known),
+            } => {
+                write!(
+                    f,
+                    "{number}: not seen alone, only in {known}; its own value is the one nearest to the model"
+                )
+            }
+            Self::Weak {
+                number,
+                deviation_percent,
+            } => write!(
+                f,
+                "{number}: weakly known, to {deviation_percent:.0} %; load the machine so that more of the deflection comes from it, or read more often"
+            ),
+            Self::Absent { number } => write!(
+                f,
+                "{number}: the readings do not tell it from none; the force of such a spring shows in absolute positions and torques, hardly in how stiff the machine is"
+            ),
+            Self::Rigid { number } => write!(
+                f,
+                "{number}: the readings do not tell it from rigid; with less than no compliance they would fit still better, so that noise hides it, or another part that yields is missing in the model"
+            ),
+            Self::Outlier { posture, times } => write!(
+                f,
+                "posture '{posture}' is {times:.1} times as far from the fit to all others as the median posture: look at its joints, load and markers, or use --robust"
+            ),
+            Self::Exchanged {
+                posture,
+                markers_mm: [a, b],
+            } => write!(
+                f,
+                "posture '{posture}': the displacements of the markers at {a:?} and {b:?} mm fit far better the other way round: they seem to be exchanged"
+            ),
+            Self::Scatter { times } => write!(
+                f,
+                "the readings scatter {times:.1} times as much about the fit as their standard deviations say: the model lacks something that yields, or the readings are less exact than stated; all deviations here are {times:.1} times larger for it"
+            ),
+            Self::NoRedundancy => write!(
+                f,
+                "there are as many unknowns as readings: nothing tells how well the model fits"
+            ),
+        }
+    }
+}
+
+/// Residual of a posture against those of the median above which it is named.
+const FAR: f64 = 4.0;
+
+pub(crate) fn findings(
+    numbers: &[IdentifiedNumber],
+    residuals: &[PostureResiduals],
+    fit: &LinearFit,
+) -> Vec<Finding> {
+    let mut out = Vec::new();
+    for number in numbers {
+        let name = || number.number.clone();
+        match (
+            number.knowledge,
+            number.identified,
+            number.deviation_percent,
+        ) {
+            (Knowledge::Unseen, ..) => out.push(Finding::Unseen {
+                number: name(),
+                known: number.known_combination.clone(),
+            }),
+            _ if number.at_bound && number.acts_beside_joints => {
+                out.push(Finding::Absent { number: name() })
+            }
+            _ if number.at_bound => out.push(Finding::Rigid { number: name() }),
+            (Knowledge::Weak, _, Some(deviation_percent)) => out.push(Finding::Weak {
+                number: name(),
+                deviation_percent,
+            }),
+            _ => {}
+        }
+    }
+    let of_posture = |r: &PostureResiduals| r.left_out.unwrap_or(r.after);
+    let mut sorted: Vec<f64> = residuals.iter().map(of_posture).collect();
+    sorted.sort_by(f64::total_cmp);
+    let median = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+    // Two postures have no median to speak of, and rounding is no outlier.
+    let tells = residuals.len() >= 4 && median > 1e-6;
+    let outliers = residuals
+        .iter()
+        .filter(|r| tells && of_posture(r) > FAR * median);
+    out.extend(outliers.map(|r| Finding::Outlier {
+        posture: r.posture.clone(),
+        times: of_posture(r) / median,
+    }));
+    match fit.degrees_of_freedom() {
+        0 => out.push(Finding::NoRedundancy),
+        _ if fit.sigma_factor() > SCATTER => out.push(Finding::Scatter {
+            times: fit.sigma_factor(),
+        }),
+        _ => {}
+    }
+    out
+}
+
+/// Squares of residuals that exchanged markers leave, relative to those that they have as they stand, below which they seem exchanged.
+const EXCHANGED: f64 = 0.05;
+/// Squares of the residuals of a marker, in standard deviations and for each reading, below which nothing is asked.
+const NOTICEABLE: f64 = 25.0;
+
+/// Pairs of markers under one load whose displacements seem to be exchanged.
+pub(crate) fn exchanged_markers(fit: &Fit, observations: &[Observation]) -> Vec<Finding> {
+    let mut found = Vec::new();
+    for (name, residuals) in fit.names.iter().zip(&fit.linear.residuals) {
+        let own: Vec<&Observation> = observations.iter().filter(|o| o.posture == *name).collect();
+        // Where the rows of each observation begin.
+        let mut starts = vec![0];
+        for observation in &own {
+            starts.push(
+                starts
+                    .last()
+                    .map_or(0, |last| last + observation.readings.len()),
+            );
+        }
+        let displacement =
+            |i: usize| is_displacement(own[i]).then(|| residuals.rows(starts[i], 3).into_owned());
+        for i in 0..own.len() {
+            for j in i + 1..own.len() {
+                let (Some(a), Some(b)) = (displacement(i), displacement(j)) else {
+                    continue;
+                };
+                let (p, q) = (&own[i].readings, &own[j].readings);
+                if own[i].load != own[j].load || p[0].marker == q[0].marker {
+                    continue;
+                }
+                let between = DVector::from_fn(3, |k, _| q[k].value - p[k].value);
+                let swapped = |r: &DVector<f64>, sign: f64, own: &[crate::experiment::Reading]| {
+                    (0..3)
+                        .map(|k| (r[k] + sign * between[k] / own[k].deviation).powi(2))
+                        .sum::<f64>()
+                };
+                let before = a.norm_squared() + b.norm_squared();
+                let after = swapped(&a, 1.0, p) + swapped(&b, -1.0, q);
+                if before > 6.0 * NOTICEABLE && after < EXCHANGED * before {
+                    let mm = |r: &crate::experiment::Reading| (r.marker * 1e3).into();
+                    found.push(Finding::Exchanged {
+                        posture: name.clone(),
+                        markers_mm: [mm(&p[0]), mm(&q[0])],
+                    });
+                }
+            }
+        }
+    }
+    found
+}
+
+/// True for the three components of one displacement.
+fn is_displacement(observation: &Observation) -> bool {
+    let lengths = observation
+        .readings
+        .iter()
+        .filter(|r| matches!(r.of, ReadingOf::Along(_)));
+    observation.readings.len() == 3 && lengths.count() == 3
+}
