@@ -60,6 +60,11 @@ pub enum Finding {
         /// Standard deviation about the fit, in stated ones.
         times: f64,
     },
+    /// Readings are far larger or smaller than what the model says, or go the other way.
+    Scale {
+        /// Readings in those that the model as it was foretells; negative where they go against the load.
+        times: f64,
+    },
     /// Nothing is left to tell how well the model fits.
     NoRedundancy,
 }
@@ -112,6 +117,14 @@ impl fmt::Display for Finding {
             Self::Scatter { times } => write!(
                 f,
                 "the readings scatter {times:.1} times as much about the fit as their standard deviations say: the model lacks something that yields, or the readings are less exact than stated; all deviations here are {times:.1} times larger for it"
+            ),
+            Self::Scale { times } if *times < 0.0 => write!(
+                f,
+                "on the whole the tool moves against its load: look at the signs of forces and readings, and whether unloaded was subtracted from loaded"
+            ),
+            Self::Scale { times } => write!(
+                f,
+                "on the whole the readings are {times:.3} times what the model as it was foretells: look at the units of forces and readings"
             ),
             Self::NoRedundancy => write!(
                 f,
@@ -233,4 +246,20 @@ fn is_displacement(observation: &Observation) -> bool {
         .iter()
         .filter(|r| matches!(r.of, ReadingOf::Along(_)));
     observation.readings.len() == 3 && lengths.count() == 3
+}
+
+/// Ratio of readings to what the model foretells beyond which units are asked about.
+const UNLIKELY: f64 = 15.0;
+
+/// Asks about units and signs where readings have another size than any machine of this kind has.
+pub(crate) fn scale(fit: &Fit) -> Option<Finding> {
+    let (mut both, mut own) = (0.0, 0.0);
+    for (reading, residual) in fit.readings.iter().zip(&fit.before) {
+        let foretold = reading - residual;
+        both += foretold.dot(reading);
+        own += foretold.norm_squared();
+    }
+    let times = both / own;
+    let is_likely = (1.0 / UNLIKELY..UNLIKELY).contains(&times);
+    (times.is_finite() && !is_likely).then_some(Finding::Scale { times })
 }

@@ -115,6 +115,9 @@ pub fn identify(
     })
 }
 
+/// Values of the unknowns, and the rows there.
+type At = (DVector<f64>, Vec<PostureRows>);
+
 /// Halvings of a step at most: where none fits better, the last one is taken, and the change tells.
 const MOST_HALVINGS: usize = 12;
 
@@ -124,9 +127,9 @@ fn downhill(
     from: &DVector<f64>,
     to: &DVector<f64>,
     postures: &[PostureRows],
-    rows_at: &dyn Fn(&DVector<f64>) -> Result<Vec<PostureRows>, IdentificationError>,
-    misfit: &dyn Fn(&[PostureRows], &DVector<f64>) -> f64,
-) -> Result<(DVector<f64>, Vec<PostureRows>), IdentificationError> {
+    rows_at: &impl Fn(&DVector<f64>) -> Result<Vec<PostureRows>, IdentificationError>,
+    misfit: &impl Fn(&[PostureRows], &DVector<f64>) -> f64,
+) -> Result<At, IdentificationError> {
     let now = misfit(postures, from);
     let mut values = to.clone();
     for halving in 0.. {

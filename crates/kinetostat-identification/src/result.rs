@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::error::IdentificationError;
 use crate::experiment::Observation;
-use crate::findings::{Finding, exchanged_markers, findings};
+use crate::findings::{Finding, exchanged_markers, findings, scale};
 use crate::fit::{Fit, FitOptions, identify};
 use crate::identifiability::{Identifiability, Knowledge};
 use crate::identified::{IdentifiedNumber, PostureResiduals};
@@ -101,6 +101,7 @@ pub fn identification(
     let lengths = Lengths::of(&fit, observations);
     let mut findings = findings(&numbers, &residuals, &fit.linear);
     findings.extend(exchanged_markers(&fit, observations));
+    findings.splice(0..0, scale(&fit));
     let estimate = &fit.linear.estimate;
     Ok(Identification {
         postures: fit.names.len(),

@@ -15,6 +15,7 @@ use kinetostat_identification::{
     Room, TestLoad, Theory, Unknowns, plan,
 };
 use kinetostat_model::Model;
+use kinetostat_report::{Plot, PlotLine};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -62,7 +63,7 @@ pub(crate) struct PlanMeasurementArgs {
     #[arg(long, value_name = "N", value_parser = number, help_heading = "Loads")]
     pub(crate) pull_n: Option<f64>,
     /// Direction in which it may pull, base axes; once for each, instead of all six
-    #[arg(long, num_args = 3, action = clap::ArgAction::Append, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, value_parser = number, help_heading = "Loads")]
+    #[arg(long, num_args = 3, action = clap::ArgAction::Append, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, value_parser = number, requires = "pull_n", help_heading = "Loads")]
     pub(crate) pull_direction: Vec<f64>,
     /// Where the load acts, mm, in the tool's frame [default: its origin]
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, value_parser = number, help_heading = "Loads")]
@@ -89,17 +90,17 @@ pub(crate) struct PlanMeasurementArgs {
     #[arg(long, value_name = "NAME=VALUE,...", help_heading = "What it is for")]
     pub(crate) work: Vec<String>,
     /// Force on the tool at work, N, base axes
-    #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true, value_parser = number, help_heading = "What it is for")]
+    #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true, value_parser = number, requires = "work", help_heading = "What it is for")]
     pub(crate) force: Option<Vec<f64>>,
-    /// Without --work: what is made small
+    /// Without --work: what is made small [default: average]
     #[arg(
         long,
         value_enum,
         value_name = "AIM",
-        default_value = "average",
+        conflicts_with = "work",
         help_heading = "What it is for"
     )]
-    pub(crate) aim: Aim,
+    pub(crate) aim: Option<Aim>,
     /// Number of postures to choose from [default: 300]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) candidates: Option<usize>,
@@ -203,7 +204,7 @@ pub(crate) fn run(args: &PlanMeasurementArgs) -> Answer<()> {
     let shown = Shown {
         text: text::answer_text(&answer),
         csv: table(&task, &found)?,
-        svg: String::new(),
+        svg: picture(&answer).svg(),
         failure: None,
     };
     claimed.finish(&shown, &answer)
@@ -316,9 +317,9 @@ fn loads(args: &PlanMeasurementArgs, model: &Model) -> Answer<Vec<TestLoad>> {
 fn purpose(args: &PlanMeasurementArgs, model: &Model) -> Answer<Purpose> {
     if args.work.is_empty() {
         return Ok(match args.aim {
-            Aim::Average => Purpose::Average,
-            Aim::Determinant => Purpose::Determinant,
-            Aim::WorstDirection => Purpose::WorstDirection,
+            None | Some(Aim::Average) => Purpose::Average,
+            Some(Aim::Determinant) => Purpose::Determinant,
+            Some(Aim::WorstDirection) => Purpose::WorstDirection,
         });
     }
     let force = args
@@ -415,6 +416,25 @@ fn answer_of(args: &PlanMeasurementArgs, task: &PlanTask<'_>, found: &Plan) -> P
             })
             .collect(),
         measurements: found.measurements.iter().enumerate().map(row).collect(),
+    }
+}
+
+/// The way of the tool from posture to posture, seen from above.
+fn picture(answer: &PlanAnswer) -> Plot {
+    let places = answer
+        .measurements
+        .iter()
+        .map(|m| (m.position_mm[0], m.position_mm[1]));
+    Plot {
+        title: format!(
+            "{}: {} measurements from above",
+            answer.model,
+            answer.measurements.len()
+        ),
+        x_label: "x of the tool, mm".to_owned(),
+        y_label: "y of the tool, mm".to_owned(),
+        lines: vec![PlotLine::solid("way of the tool", 0, places.collect())],
+        marks: Vec::new(),
     }
 }
 

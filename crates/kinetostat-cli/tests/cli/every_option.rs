@@ -90,7 +90,7 @@ const MAY_BE_IDLE: [(&str, &str); 29] = [
 ];
 
 /// Measured displacements of `heavy_6r`, with one that does not fit.
-pub(crate) const PULLS: &str = "posture,joint 1_deg,joint 2_deg,joint 3_deg,joint 4_deg,joint 5_deg,joint 6_deg,fx_n,fy_n,fz_n,load_x_mm,dx_mm,dy_mm,dz_mm\n1,0,-60,60,10,60,0,1000,0,0,100,0.9,0.1,-0.2\n2,30,-50,50,30,40,20,0,1000,0,100,0.1,1.2,0.1\n3,-30,-55,70,-20,70,-30,0,0,-1000,100,-0.2,0.1,-1.1\n4,10,-40,80,60,-50,80,1000,500,0,100,0.8,0.9,0.2\n";
+pub(crate) const PULLS: &str = "posture,joint 1_deg,joint 2_deg,joint 3_deg,joint 4_deg,joint 5_deg,joint 6_deg,fx_n,fy_n,fz_n,dx_mm,dy_mm,dz_mm\n1,0,-60,60,10,60,0,1000,0,0,0.165,-0.013,0.223\n2,30,-50,50,30,40,20,0,1000,0,-0.146,0.270,0.032\n3,-30,-55,70,-20,70,-30,0,0,-1000,-0.263,0.205,-0.447\n4,10,-40,80,60,-50,80,1000,500,0,0.692,0.103,0.357\n5,-50,-30,60,-40,80,10,600,-800,-300,0.333,-0.268,0.125\n";
 
 const JOB: &str = "schema = 1\nmodel = \"orthoglide\"\nprogram = \"part.ngc\"\n[placement]\npart_origin_mm = [0, 0, 100]\n[tool]\nlength_mm = 100\n[load]\nmilling = { radial_n = 215, tangential_n = -10, axial_n = -25 }\n";
 const MILL: &str = "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"part.ngc\"\n[placement]\npart_origin_mm = [1300, 0, 800]\ntool_orientation = { a_b_c_kuka_deg = [160, 0, 180] }\n[tool]\npose = { position_mm = [200, 0, 100], a_b_c_kuka_deg = [0, 90, 0] }\ncutter = { shape = \"flat\", diameter_mm = 10, teeth = 2, helix_deg = 30 }\n[load]\nweight = \"all\"\n[material]\nname = \"AlMg4.5Mn\"\n[stock]\nblock_mm = [[-30, -20, -12], [30, 30, 0]]\n";

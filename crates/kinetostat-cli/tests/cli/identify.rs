@@ -24,7 +24,7 @@ fn measured(here: &std::path::Path, plan: &str, model: &str) -> String {
         words.extend(&force);
         let answer: serde_json::Value =
             serde_json::from_str(&run(here, &words).answered().out).expect("JSON");
-        let by_load = &answer["deflection_by_load_mm"];
+        let by_load = &answer["displacement_by_load_mm"];
         for (k, name) in ["dx_mm", "dy_mm", "dz_mm"].iter().enumerate() {
             cells[column(name)] = by_load[k].to_string();
         }

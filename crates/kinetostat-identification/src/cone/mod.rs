@@ -44,7 +44,6 @@ use thiserror::Error;
 
 pub use solution::{BlockState, ConeSolution, KktResidual};
 
-use newton::Optimum;
 use reduced::Reduced;
 
 /// Limit of the optimisations with other weights of the penalty.
@@ -67,15 +66,7 @@ pub enum Constraint {
 /// Reason why a problem has no answer.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ConeError {
-    /// No row, or no unknown.
-    #[error("the matrix has {rows} rows and {columns} columns; at least one of each is required")]
-    Empty {
-        /// Rows of the matrix.
-        rows: usize,
-        /// Columns of the matrix.
-        columns: usize,
-    },
-    /// Sizes that do not fit together.
+    /// Sizes that do not fit together, or a matrix without entries.
     #[error("{what} has {found} entries; {expected} are required")]
     Size {
         /// Name of the vector or matrix.
@@ -185,55 +176,51 @@ impl<'a> ConeLeastSquares<'a> {
     pub fn solve(&self) -> Result<ConeSolution, ConeError> {
         self.check()?;
         let mut reduced = Reduced::new(self)?;
-        if reduced.is_feasible(&reduced.unconstrained) {
-            let optimum = Optimum {
-                u: reduced.unconstrained.clone(),
-                dual: DVector::zeros(self.matrix.ncols()),
-                gap: 0.0,
-                steps: 0,
-            };
-            return Ok(solution::unscale(self, &reduced, &optimum));
-        }
         let mut optimum = newton::minimise(&reduced)?;
         for _ in 0..PENALTY_ROUNDS {
-            let Some(adapted) = reduced.adapted(&optimum.u) else {
-                break;
-            };
-            let Ok(mut next) = newton::minimise(&adapted) else {
-                break;
-            };
-            next.steps += optimum.steps;
-            (reduced, optimum) = (adapted, next);
+            if let Some(adapted) = reduced.adapted(&optimum.u)
+                && let Ok(mut next) = newton::minimise(&adapted)
+            {
+                next.steps += optimum.steps;
+                (reduced, optimum) = (adapted, next);
+            }
         }
         Ok(solution::unscale(self, &reduced, &optimum))
     }
 
     fn check(&self) -> Result<(), ConeError> {
         let (rows, columns) = self.matrix.shape();
-        if rows == 0 || columns == 0 {
-            return Err(ConeError::Empty { rows, columns });
+        // At least one row and one unknown.
+        let entries = (rows * columns).max(1);
+        let mut inputs = vec![
+            ("the matrix", self.matrix.as_slice(), entries),
+            ("the data vector", self.data.as_slice(), rows),
+        ];
+        inputs.extend(
+            self.reference
+                .map(|v| ("the reference", v.as_slice(), columns)),
+        );
+        let precision = self.precision.map(DMatrix::as_slice);
+        inputs.extend(precision.map(|v| ("the prior precision", v, columns * columns)));
+        inputs.extend(
+            self.nominal
+                .map(|v| ("the list of nominal sizes", v, columns)),
+        );
+        for (what, values, expected) in inputs {
+            let found = values.len();
+            if found != expected {
+                return Err(ConeError::Size {
+                    what,
+                    found,
+                    expected,
+                });
+            }
+            if !values.iter().all(|v| v.is_finite()) {
+                return Err(ConeError::NotFinite(what));
+            }
         }
-        let vector = |what, values: &[f64], expected| match values.len() {
-            found if found != expected => Err(ConeError::Size {
-                what,
-                found,
-                expected,
-            }),
-            _ if !values.iter().all(|v| v.is_finite()) => Err(ConeError::NotFinite(what)),
-            _ => Ok(()),
-        };
-        vector("the matrix", self.matrix.as_slice(), rows * columns)?;
-        vector("the data vector", self.data.as_slice(), rows)?;
-        if let Some(x0) = self.reference {
-            vector("the reference", x0.as_slice(), columns)?;
-        }
-        if let Some(p) = self.precision {
-            vector("the prior precision", p.as_slice(), columns * columns)?;
-        }
-        if let Some(sizes) = self.nominal {
-            vector("the list of nominal sizes", sizes, columns)?;
-            if let Some(column) = sizes.iter().position(|&s| s <= 0.0) {
-                let size = sizes[column];
+        for (column, &size) in self.nominal.unwrap_or_default().iter().enumerate() {
+            if size <= 0.0 {
                 return Err(ConeError::NominalSize { column, size });
             }
         }

@@ -5,7 +5,6 @@ use nalgebra::{DMatrix, DVector};
 use super::ConeError;
 use super::reduced::{Block, Reduced};
 use super::scaling::Scaling;
-use super::symmetric::triangle_from_symmetric;
 
 /// Duality gap, relative to the objective, at which the iteration ends.
 const GAP: f64 = 1e-15;
@@ -36,27 +35,35 @@ pub(super) struct Optimum {
     pub steps: usize,
 }
 
-/// Minimises the reduced objective over its blocks.
-pub(super) fn minimise(problem: &Reduced) -> Result<Optimum, ConeError> {
-    let (p, cone) = (problem.triangle.ncols(), problem.constrained());
-    let order: usize = problem.blocks.iter().map(|b| b.order).sum();
+/// Minimises the reduced objective over its blocks. Makes no step if the answer without constraints meets them.
+pub(super) fn minimise(problem: &Reduced<'_>) -> Result<Optimum, ConeError> {
+    if problem.is_feasible(&problem.unconstrained) {
+        return Ok(Optimum {
+            u: problem.unconstrained.clone(),
+            dual: DVector::zeros(problem.data.len()),
+            gap: 0.0,
+            steps: 0,
+        });
+    }
+    let order: usize = problem.blocks.iter().map(|b| b.sizes.len()).sum();
     // Start: multiples of the identity as large as the unconstrained answer and its gradient.
     let size = |v: f64| (v / (order as f64).sqrt()).clamp(1e-3, 1e3);
-    let x = size(problem.unconstrained.rows(0, cone).norm());
+    let square = |b: &Block<'_>| b.matrix(&problem.unconstrained).norm_squared();
+    let x = size(problem.blocks.iter().map(square).sum::<f64>().sqrt());
     let z = size(problem.triangle.tr_mul(&problem.data).norm());
-    let start = |b: &Block| Scaling::of_multiples(x, z, b.order);
+    let start = |b: &Block<'_>| Scaling::of_multiples(x, z, b.sizes.len());
     let mut scalings: Vec<Scaling> = problem.blocks.iter().map(start).collect();
-    let mut free = DVector::<f64>::zeros(p - cone);
+    // Unknowns of blocks follow from the scalings.
+    let mut free = DVector::<f64>::zeros(problem.data.len());
     let mut best: Option<Optimum> = None;
     let (mut idle, mut relative) = (0, f64::INFINITY);
     for steps in 0..=STEPS {
-        let (mut u, mut dual) = (DVector::zeros(p), DVector::zeros(p));
+        let (mut u, mut dual) = (free.clone(), DVector::zeros(free.len()));
         for (block, scaling) in problem.blocks.iter().zip(&scalings) {
             let [x, z] = scaling.pair();
-            u.rows_range_mut(block.columns()).copy_from(&x);
-            dual.rows_range_mut(block.columns()).copy_from(&z);
+            block.set(&mut u, &x);
+            block.set(&mut dual, &z);
         }
-        u.rows_range_mut(cone..).copy_from(&free);
         let residual = problem.residual_at(&u);
         // The sum of squares is <u, dual>, without the rounding errors of a product of matrices.
         let product = scalings.iter().map(|s| s.s.norm_squared()).sum();
@@ -100,7 +107,7 @@ pub(super) fn minimise(problem: &Reduced) -> Result<Optimum, ConeError> {
 /// It is `product + 1/2 |T^-T d|^2` with the triangle T, `product = <u, dual>` and `d = T^T (T u - data) - dual`, for every positive
 /// semi-definite dual.
 fn duality_gap(
-    problem: &Reduced,
+    problem: &Reduced<'_>,
     product: f64,
     dual: &DVector<f64>,
     residual: &DVector<f64>,
@@ -114,13 +121,13 @@ fn duality_gap(
 }
 
 /// Replaces non-negative unknowns at their bound by exact zeros if this does not widen the gap.
-fn snap_to_zero(problem: &Reduced, optimum: Optimum) -> Optimum {
+fn snap_to_zero(problem: &Reduced<'_>, optimum: Optimum) -> Optimum {
     let mut u = optimum.u.clone();
-    for block in problem.blocks.iter().filter(|b| b.order == 1) {
-        let curvature = problem.triangle.column(block.start).norm_squared();
-        let value = &mut u[block.start];
-        if *value * curvature <= optimum.dual[block.start] {
-            *value = 0.0;
+    for block in &problem.blocks {
+        if let [k] = *block.columns
+            && u[k] * problem.triangle.column(k).norm_squared() <= optimum.dual[k]
+        {
+            u[k] = 0.0;
         }
     }
     let residual = problem.residual_at(&u);
@@ -133,11 +140,12 @@ fn snap_to_zero(problem: &Reduced, optimum: Optimum) -> Optimum {
     }
 }
 
-/// Predictor and corrector of one Newton step: scalings after it and the change of the free unknowns.
+/// Predictor and corrector of one Newton step: scalings after it and the change of the free
+/// unknowns.
 ///
 /// The predictor aims at `mu = 0`. Its success decides how far the corrector reduces `mu` (Mehrotra 1992), to second order.
 fn newton_step(
-    problem: &Reduced,
+    problem: &Reduced<'_>,
     scalings: &[Scaling],
     residual: &DVector<f64>,
 ) -> Option<(Vec<Scaling>, DVector<f64>)> {
@@ -147,10 +155,11 @@ fn newton_step(
     let mut rows = DMatrix::zeros(2 * p, p);
     rows.rows_mut(p, p).copy_from(&problem.triangle);
     for (block, scaling) in problem.blocks.iter().zip(scalings) {
-        let mixed = problem.triangle.columns_range(block.columns()) * scaling.map();
-        let mut own = rows.columns_range_mut(block.columns());
-        own.rows_mut(p, p).copy_from(&mixed);
-        own.rows_range_mut(block.columns()).fill_with_identity();
+        let mixed = problem.triangle.select_columns(block.columns) * scaling.map();
+        for (column, &k) in mixed.column_iter().zip(block.columns) {
+            rows[(k, k)] = 1.0;
+            rows.view_mut((p, k), (p, 1)).copy_from(&column);
+        }
     }
     let rows = rows.qr();
     let triangle = rows.r();
@@ -159,8 +168,7 @@ fn newton_step(
         let mut right = DVector::zeros(2 * p);
         right.rows_mut(p, p).copy_from(residual);
         for (block, target) in problem.blocks.iter().zip(targets) {
-            let target = triangle_from_symmetric(target);
-            right.rows_range_mut(block.columns()).copy_from(&target);
+            block.set(&mut right, target);
         }
         rows.q_tr_mul(&mut right);
         let v = triangle.solve_upper_triangular(&right.rows(0, p))?;
@@ -177,7 +185,7 @@ fn newton_step(
         let is_finite = v.iter().all(|v| v.is_finite());
         is_finite.then_some((v, pairs, longest))
     };
-    let zeros = |b: &Block| DMatrix::zeros(b.order, b.order);
+    let zeros = |b: &Block<'_>| DMatrix::zeros(b.sizes.len(), b.sizes.len());
     let (_, pairs, longest) = solve(&problem.blocks.iter().map(zeros).collect::<Vec<_>>())?;
     let length = longest.min(1.0);
     let (mut order, mut now, mut predicted) = (0, 0.0, 0.0);
@@ -198,5 +206,5 @@ fn newton_step(
     let length = (TO_BOUNDARY * longest).min(1.0);
     let steps = scalings.iter().zip(&pairs);
     let next: Option<Vec<_>> = steps.map(|(s, (x, z))| s.step(x, z, length)).collect();
-    Some((next?, v.rows_range(problem.constrained()..) * length))
+    Some((next?, v * length))
 }

@@ -1,12 +1,13 @@
 //! Order and scale of the unknowns, and reduction of all rows to an upper triangle.
 
 use std::f64::consts::FRAC_1_SQRT_2;
-use std::ops::Range;
 
 use kinetostat::linalg::SingularValues;
 use nalgebra::{DMatrix, DVector};
 
-use super::symmetric::{square_root, symmetric_from_triangle, triangle_index};
+use super::symmetric::{
+    square_root, symmetric_from_triangle, triangle_from_symmetric, triangle_index,
+};
 use super::{ConeError, ConeLeastSquares};
 
 /// Columns below this fraction of the longest one are rounding errors, even if units differ by 1e6.
@@ -21,35 +22,35 @@ const PENALTY: f64 = 1e-8;
 /// Smallest weight of the penalty, for data without residuals.
 const SMALLEST_WEIGHT: f64 = 1e-20;
 
-/// Place of a constrained block among the ordered unknowns.
+/// Unknowns that form a semi-definite matrix.
 #[derive(Clone)]
-pub(super) struct Block {
-    /// First of its n(n+1)/2 unknowns.
-    pub start: usize,
-    /// Order n of the matrix.
-    pub order: usize,
+pub(super) struct Block<'a> {
+    /// Columns of its upper triangle, row by row.
+    pub columns: &'a [usize],
     /// Sizes `D` of `X = D Xs D`.
     pub sizes: Vec<f64>,
 }
 
-impl Block {
-    /// Range of its unknowns.
-    pub fn columns(&self) -> Range<usize> {
-        self.start..self.start + self.order * (self.order + 1) / 2
-    }
-
+impl Block<'_> {
     /// Its matrix, from a vector of all unknowns.
     pub fn matrix(&self, u: &DVector<f64>) -> DMatrix<f64> {
-        symmetric_from_triangle(&u.as_slice()[self.columns()], self.order)
+        let own: Vec<f64> = self.columns.iter().map(|k| u[*k]).collect();
+        symmetric_from_triangle(&own, self.sizes.len())
+    }
+
+    /// Sets its unknowns in a vector of all.
+    pub fn set(&self, u: &mut DVector<f64>, matrix: &DMatrix<f64>) {
+        let own = triangle_from_symmetric(matrix);
+        self.columns.iter().zip(&own).for_each(|(k, v)| u[*k] = *v);
     }
 }
 
-/// Scaled problem: minimise `1/2 |triangle u - data|^2` with blocks first and free unknowns last.
+/// Scaled problem: minimise `1/2 |triangle u - data|^2` over scaled unknowns `u`.
 ///
 /// The longest column and the data have unit length. Off-diagonal unknowns are multiplied by the square root of 2, which makes
 /// the inner product of two blocks the trace of the product of their matrices.
 #[derive(Clone)]
-pub(super) struct Reduced {
+pub(super) struct Reduced<'a> {
     /// Upper triangle, p x p, with the rows of the penalty.
     pub triangle: DMatrix<f64>,
     /// Reduced data (p), with the penalty.
@@ -57,59 +58,57 @@ pub(super) struct Reduced {
     /// Residual that no unknown can change.
     pub residual: f64,
     /// Constrained blocks, in the order of the constraints.
-    pub blocks: Vec<Block>,
+    pub blocks: Vec<Block<'a>>,
     /// Answer without constraints, the one nearest to the reference.
     pub unconstrained: DVector<f64>,
     /// Orthonormal basis of the combinations that neither rows nor prior determine.
     pub unseen: DMatrix<f64>,
     /// Unit of the objective: squared length of the data.
     pub objective_unit: f64,
-    /// Unknowns in their own units and order from scaled ones; one entry in each row and column.
-    pub units: DMatrix<f64>,
+    /// Size of each unknown, in its own unit.
+    pub scale: DVector<f64>,
     reference: DVector<f64>,
     weight: f64,
     /// Triangle and data without the penalty, p x (p + 1).
     seen: DMatrix<f64>,
 }
 
-impl Reduced {
+impl<'a> Reduced<'a> {
     /// Scales and reduces a problem whose sizes and numbers were checked.
-    pub fn new(problem: &ConeLeastSquares<'_>) -> Result<Self, ConeError> {
+    pub fn new(problem: &ConeLeastSquares<'a>) -> Result<Self, ConeError> {
         let (count, p) = problem.matrix.shape();
         let root = match problem.precision {
             Some(precision) => square_root(precision).ok_or(ConeError::Precision)?,
             None => DMatrix::zeros(p, 0),
         };
-        let (mut units, blocks) = ordered(problem);
-        let x0 = problem.reference.cloned();
-        let x0 = x0.unwrap_or_else(|| DVector::zeros(p));
+        let (mut scale, blocks) = sizes_and_blocks(problem);
+        let units = DMatrix::from_diagonal(&scale);
+        let x0 = (problem.reference.cloned()).unwrap_or_else(|| DVector::zeros(p));
         // The last column holds the data. Rows of zeros make the triangle square.
         let mut rows = DMatrix::zeros((count + root.ncols()).max(p + 1), p + 1);
-        rows.view_mut((0, 0), (count, p))
-            .copy_from(&(problem.matrix * &units));
+        let scaled_rows = problem.matrix * &units;
+        rows.view_mut((0, 0), (count, p)).copy_from(&scaled_rows);
         rows.view_mut((0, p), (count, 1)).copy_from(problem.data);
         let mut prior = rows.rows_mut(count, root.ncols());
         prior.columns_mut(0, p).copy_from(&root.tr_mul(&units));
         prior.column_mut(p).copy_from(&root.tr_mul(&x0));
         let mut seen = rows.qr().r();
         // Squares of numbers beyond 1e150 are infinite.
-        if !seen.iter().chain(&units).all(|v| v.is_finite()) {
+        if !seen.iter().chain(&scale).all(|v| v.is_finite()) {
             return Err(ConeError::NotFinite("the scaled problem"));
         }
         let positive = |v: f64| if v > 0.0 { v } else { 1.0 };
         let lengths = seen.column_iter().take(p).map(|c| c.norm());
         let column = positive(lengths.fold(0.0, f64::max));
         let length = positive(seen.column(p).norm());
-        units *= length / column;
+        scale *= length / column;
         seen.columns_mut(0, p).unscale_mut(column);
         seen.column_mut(p).unscale_mut(length);
         let residual = seen[(p, p)];
         let seen = seen.remove_row(p);
         let triangle = seen.columns(0, p).into_owned();
         let data = seen.column(p).into_owned();
-        let reference = units
-            .map(|v| if v > 0.0 { 1.0 / v } else { 0.0 })
-            .tr_mul(&x0);
+        let reference = x0.component_div(&scale);
         let values = SingularValues::of(&triangle);
         let away = values.pseudo_inverse(RANK_TOLERANCE) * (&data - &triangle * &reference);
         let mut reduced = Self {
@@ -118,7 +117,7 @@ impl Reduced {
             unconstrained: &reference + away,
             unseen: values.null_space(RANK_TOLERANCE),
             objective_unit: length * length,
-            units,
+            scale,
             reference,
             weight: 0.0,
             triangle,
@@ -159,26 +158,20 @@ impl Reduced {
     /// Adds the rows `weight^1/2 N^T (u - reference)` to the reduced ones.
     fn penalise(&mut self, weight: f64) {
         let (p, count) = self.unseen.shape();
-        let rows = self.unseen.transpose() * weight.sqrt();
-        let mut stack = self.seen.clone().insert_rows(p, count, 0.0);
-        stack
-            .view_mut((p, p), (count, 1))
-            .copy_from(&(&rows * &self.reference));
-        stack.view_mut((p, 0), (count, p)).copy_from(&rows);
-        let reduced = stack.qr().r();
+        let own = self.unseen.transpose() * weight.sqrt();
+        let mut rows = self.seen.clone().insert_rows(p, count, 0.0);
+        let mut last = rows.rows_mut(p, count);
+        last.columns_mut(0, p).copy_from(&own);
+        last.column_mut(p).copy_from(&(own * &self.reference));
+        let reduced = rows.qr().r();
         self.data = reduced.view((0, p), (p, 1)).column(0).into_owned();
         self.triangle = reduced.view((0, 0), (p, p)).into_owned();
         self.weight = weight;
     }
 
-    /// Number of constrained unknowns; they come first.
-    pub fn constrained(&self) -> usize {
-        self.blocks.last().map_or(0, |b| b.columns().end)
-    }
-
     /// True if every block is positive semi-definite.
     pub fn is_feasible(&self, u: &DVector<f64>) -> bool {
-        let is_feasible = |b: &Block| b.matrix(u).symmetric_eigenvalues().min() >= 0.0;
+        let is_feasible = |b: &Block<'_>| b.matrix(u).symmetric_eigenvalues().min() >= 0.0;
         self.blocks.iter().all(is_feasible)
     }
 
@@ -207,46 +200,35 @@ impl Reduced {
     }
 
     /// Second derivative of the objective, with the penalty, along a change of one block.
-    pub fn curvature(&self, block: &Block, change: &DVector<f64>) -> f64 {
-        let columns = self.triangle.columns_range(block.columns());
-        (columns * change).norm_squared()
+    pub fn curvature(&self, block: &Block<'_>, change: &DMatrix<f64>) -> f64 {
+        let mut step = DVector::zeros(self.data.len());
+        block.set(&mut step, change);
+        (&self.triangle * step).norm_squared()
     }
 }
 
-/// Unknowns from ordered and scaled ones (blocks first), and the blocks.
-fn ordered(problem: &ConeLeastSquares<'_>) -> (DMatrix<f64>, Vec<Block>) {
+/// Sizes of the unknowns, and the blocks.
+fn sizes_and_blocks<'a>(problem: &ConeLeastSquares<'a>) -> (DVector<f64>, Vec<Block<'a>>) {
     let p = problem.matrix.ncols();
     let prior = |k: usize| problem.precision.map_or(0.0, |p| p[(k, k)].max(0.0).sqrt());
     let lengths = DVector::from_fn(p, |k, _| problem.matrix.column(k).norm().hypot(prior(k)));
     let longest = lengths.amax();
-    let size = |column: usize| match problem.nominal {
-        Some(sizes) => sizes[column],
+    let mut scale = DVector::from_fn(p, |k, _| match problem.nominal {
+        Some(sizes) => sizes[k],
         None if longest == 0.0 => 1.0,
-        None if lengths[column] <= COLUMN_TOLERANCE * longest => 1.0 / longest,
-        None => 1.0 / lengths[column],
-    };
-    let (mut units, mut is_free, mut blocks) = (DMatrix::zeros(p, p), vec![true; p], Vec::new());
-    let mut next = 0;
+        None if lengths[k] <= COLUMN_TOLERANCE * longest => 1.0 / longest,
+        None => 1.0 / lengths[k],
+    });
+    let mut blocks = Vec::new();
     for constraint in problem.constraints {
         let (columns, n) = (constraint.columns(), constraint.order().unwrap_or(0));
-        let diagonal = (0..n).map(|i| size(columns[triangle_index(n, i, i)]).sqrt());
+        let diagonal = (0..n).map(|i| scale[columns[triangle_index(n, i, i)]].sqrt());
         let sizes: Vec<f64> = diagonal.collect();
-        let start = next;
         for (i, k) in (0..n).flat_map(|i| (i..n).map(move |k| (i, k))) {
-            let column = columns[next - start];
             let factor = if i == k { 1.0 } else { FRAC_1_SQRT_2 };
-            units[(column, next)] = sizes[i] * sizes[k] * factor;
-            is_free[column] = false;
-            next += 1;
+            scale[columns[triangle_index(n, i, k)]] = sizes[i] * sizes[k] * factor;
         }
-        blocks.push(Block {
-            start,
-            order: n,
-            sizes,
-        });
+        blocks.push(Block { columns, sizes });
     }
-    for (k, column) in (0..p).filter(|k| is_free[*k]).enumerate() {
-        units[(column, next + k)] = size(column);
-    }
-    (units, blocks)
+    (scale, blocks)
 }

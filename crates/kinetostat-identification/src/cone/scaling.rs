@@ -33,11 +33,11 @@ impl Scaling {
         &self.e * DMatrix::from_diagonal(&self.s) * self.e.transpose()
     }
 
-    /// Upper triangles of `X` and `Z`.
-    pub fn pair(&self) -> [DVector<f64>; 2] {
+    /// `X` and `Z`.
+    pub fn pair(&self) -> [DMatrix<f64>; 2] {
         [self.g.clone(), self.g.map(f64::recip)].map(|sizes| {
             let g = &self.u * DMatrix::from_diagonal(&sizes);
-            triangle_from_symmetric(&(&g * self.point() * g.transpose()))
+            &g * self.point() * g.transpose()
         })
     }
 

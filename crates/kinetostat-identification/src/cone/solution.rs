@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use super::ConeLeastSquares;
 use super::newton::Optimum;
 use super::reduced::{Block, Reduced};
-use super::symmetric::{triangle_from_symmetric, triangle_index};
+use super::symmetric::triangle_index;
 
 /// Eigenvalues below this fraction of the largest are zero, even if their dual is zero, too.
 const ZERO_EIGENVALUE: f64 = 1e-8;
@@ -41,7 +41,7 @@ pub struct ConeSolution {
 ///
 /// The gradient of the objective is zero for free unknowns. For a constrained block it is the dual matrix `Z`, which is positive
 /// semi-definite and orthogonal to the block: `trace(X Z) = 0`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct KktResidual {
     /// Largest gradient by a free unknown.
     pub stationarity: f64,
@@ -69,29 +69,28 @@ pub struct BlockState {
 /// Result in the units of the unknowns, from the optimum of the reduced problem.
 pub(super) fn unscale(
     problem: &ConeLeastSquares<'_>,
-    reduced: &Reduced,
+    reduced: &Reduced<'_>,
     optimum: &Optimum,
 ) -> ConeSolution {
     let u = &optimum.u;
-    let x = &reduced.units * u;
+    let x = u.component_mul(&reduced.scale);
     let chi_squared = (problem.matrix * &x - problem.data).norm_squared();
     let prior = match (problem.precision, problem.reference) {
         (Some(p), Some(x0)) => (&x - x0).dot(&(p * (&x - x0))),
         _ => 0.0,
     };
     let gradient = reduced.gradient(u);
-    let mut kkt = KktResidual {
-        stationarity: gradient.rows_range(reduced.constrained()..).amax(),
-        dual_infeasibility: 0.0,
-        complementarity: 0.0,
-    };
+    let mut free = gradient.clone();
+    let mut kkt = KktResidual::default();
     for block in &reduced.blocks {
         let slope = block.matrix(&gradient);
         kkt.complementarity = kkt.complementarity.max(block.matrix(u).dot(&slope).abs());
         let negative = -slope.symmetric_eigenvalues().min();
         kkt.dual_infeasibility = kkt.dual_infeasibility.max(negative);
+        block.columns.iter().for_each(|k| free[*k] = 0.0);
     }
-    let state = |b: &Block| block_state(reduced, optimum, b, &b.matrix(&gradient));
+    kkt.stationarity = free.amax();
+    let state = |b: &Block<'_>| block_state(reduced, optimum, b, &b.matrix(&gradient));
     ConeSolution {
         x,
         objective: 0.5 * (chi_squared + prior),
@@ -101,19 +100,19 @@ pub(super) fn unscale(
         kkt,
         blocks: reduced.blocks.iter().map(state).collect(),
         rank: u.len() - reduced.unseen.ncols(),
-        unseen: &reduced.units * &reduced.unseen,
+        unseen: DMatrix::from_diagonal(&reduced.scale) * &reduced.unseen,
         newton_steps: optimum.steps,
     }
 }
 
 /// State of a block, from the optimum and the gradient by its scaled matrix.
 fn block_state(
-    reduced: &Reduced,
+    reduced: &Reduced<'_>,
     optimum: &Optimum,
-    block: &Block,
+    block: &Block<'_>,
     slope: &DMatrix<f64>,
 ) -> BlockState {
-    let n = block.order;
+    let n = block.sizes.len();
     let dual = block.matrix(&optimum.dual);
     let eigen = block.matrix(&optimum.u).symmetric_eigen();
     let mut ascending: Vec<usize> = (0..n).collect();
@@ -124,19 +123,15 @@ fn block_state(
     let is_zero = |&&i: &&usize| {
         let v = eigen.eigenvectors.column(i);
         let value = eigen.eigenvalues[i];
-        let step = triangle_from_symmetric(&(v * v.transpose()));
-        let curvature = reduced.curvature(block, &step);
+        let curvature = reduced.curvature(block, &(v * v.transpose()));
         value * curvature <= v.dot(&(&dual * v)) || value <= ZERO_EIGENVALUE * largest
     };
     let at_bound = ascending.iter().take_while(is_zero).count();
     // A matrix of zeros has eigenvalues of zero, not NaN.
     let unit = if largest > 0.0 { largest } else { 1.0 };
-    // The only entry of a column of the units; an off-diagonal unknown stands for two entries of the matrix.
+    // An off-diagonal unknown stands for two entries of the matrix.
     let size = |i: usize, k: usize| {
-        let scale = reduced
-            .units
-            .column(block.start + triangle_index(n, i, k))
-            .sum();
+        let scale = reduced.scale[block.columns[triangle_index(n, i, k)]];
         if i == k { scale } else { scale * SQRT_2 }
     };
     BlockState {

@@ -140,7 +140,7 @@ fn newton_step(
     let square = if size < n {
         &v * v.transpose()
     } else {
-        v.tr_mul(&v)
+        v.transpose() * &v
     };
     let inner = (DMatrix::identity(square.nrows(), square.nrows()) + square).cholesky()?;
     let solve = |b: DMatrix<f64>| match size < n {

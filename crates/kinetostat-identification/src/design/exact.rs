@@ -63,7 +63,9 @@ pub(super) fn search(
 
 /// Value of a set with the information `base` added; `None` if the information is singular.
 fn value(problem: &Problem, base: &DMatrix<f64>, chosen: &[usize]) -> Option<f64> {
-    problem.objective.value(problem.sum(base, chosen))
+    problem
+        .objective
+        .value(problem.sum(base, chosen), f64::INFINITY)
 }
 
 /// Adds the posture that lowers the value most until the set is complete or `base` is singular.
@@ -148,7 +150,7 @@ fn best_change(
                 None => entered.clone(),
             };
             pairs += 1;
-            if let Some(value) = problem.objective.value(after)
+            if let Some(value) = problem.objective.value(after, limit)
                 && value < limit
             {
                 limit = value;

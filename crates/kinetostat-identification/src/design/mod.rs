@@ -188,7 +188,7 @@ pub fn evaluate(
     };
     let problem = Problem::new(candidates, criterion, count, &settings)?;
     let information = problem.sum(&problem.fixed, &postures);
-    let value = (problem.objective.value(information))
+    let value = (problem.objective.value(information, f64::INFINITY))
         .ok_or_else(|| problem.too_few_observations(problem.rank(&postures)))?;
     let bound = if *criterion == Criterion::WorstDirection {
         None

@@ -40,15 +40,22 @@ impl State {
 }
 
 impl Objective {
-    /// Value of the criterion for an information matrix; `None` if that is singular.
-    pub(super) fn value(&self, information: DMatrix<f64>) -> Option<f64> {
+    /// Value of the criterion for an information matrix; `None` if that is singular or the value is not below a limit.
+    pub(super) fn value(&self, information: DMatrix<f64>, limit: f64) -> Option<f64> {
+        if let Self::Worst(b) = self
+            && limit.is_finite()
+        {
+            // The largest eigenvalue is below the limit exactly if this is positive definite. A factorisation tests that faster
+            // than an eigenvalue is found.
+            cholesky(&information - b * b.transpose() / limit)?;
+        }
         let factor = cholesky(information)?;
         Some(match self {
             Self::Linear(b) => factor.solve_lower_triangular(b)?.norm_squared(),
             Self::Determinant(scale) => determinant(&factor, *scale),
             Self::Worst(b) => {
                 let solved = factor.solve_lower_triangular(b)?;
-                solved.tr_mul(&solved).symmetric_eigenvalues().max()
+                (solved.transpose() * &solved).symmetric_eigenvalues().max()
             }
         })
     }

@@ -74,10 +74,8 @@ pub fn into_base(
         .collect();
     let places = pairs.len();
     let count = places.max(1) as f64;
-    let mean = |of: fn(&(Vector3<f64>, Vector3<f64>)) -> Vector3<f64>| {
-        pairs.iter().map(of).sum::<Vector3<f64>>() / count
-    };
-    let (measured, modelled) = (mean(|p| p.0), mean(|p| p.1));
+    let measured = pairs.iter().map(|p| p.0).sum::<Vector3<f64>>() / count;
+    let modelled = pairs.iter().map(|p| p.1).sum::<Vector3<f64>>() / count;
     let mut spread = Matrix3::zeros();
     for (a, b) in &pairs {
         spread += (a - measured) * (b - modelled).transpose();

@@ -289,13 +289,14 @@ impl Row<'_> {
                     message,
                 });
             };
-            let Some(number) = self.number(cell) else {
+            // A reading with a fault stays one, so that it is not taken for missing.
+            let number = self.number(cell).unwrap_or(f64::NAN);
+            if number.is_nan() {
                 fault(match cell.is_empty() {
                     true => "the cell is empty; a number is needed".to_owned(),
                     false => "this is no number".to_owned(),
                 });
-                continue;
-            };
+            }
             match *column {
                 Column::Posture | Column::Note | Column::Branch => {}
                 Column::Axis(i, unit) => shown[i] = number * unit,
@@ -351,7 +352,7 @@ impl Row<'_> {
             }),
             ..read
         };
-        if read == Read::default() && self.cells_of_readings_are_empty() {
+        if read == Read::default() {
             fault("nothing was read in this row".to_owned());
         }
         let commands = axes.commands(&shown)?;
@@ -371,25 +372,6 @@ impl Row<'_> {
             turn_deviation,
             unloading,
         })
-    }
-
-    /// A reading with a fault is not missing.
-    fn cells_of_readings_are_empty(&self) -> bool {
-        let is_reading = |c: &Option<Column>| {
-            matches!(
-                c,
-                Some(
-                    Column::Displacement(..)
-                        | Column::Position(..)
-                        | Column::Turn(..)
-                        | Column::Gauge(_)
-                )
-            )
-        };
-        let cells = self.columns.iter().zip(self.cells);
-        cells
-            .filter(|(c, _)| is_reading(c))
-            .all(|(_, cell)| cell.is_empty())
     }
 
     fn number(&self, cell: &str) -> Option<f64> {

@@ -300,9 +300,10 @@ fn wrong_input_is_refused() {
     let error = ConeLeastSquares::new(&empty, &mean, &[]).solve().err();
     assert_eq!(
         error,
-        Some(ConeError::Empty {
-            rows: 0,
-            columns: 3
+        Some(ConeError::Size {
+            what: "the matrix",
+            found: 0,
+            expected: 1
         })
     );
 }

@@ -306,8 +306,8 @@ fn equal_seeds_give_equal_designs() {
 }
 
 #[test]
-fn updates_of_low_rank_reach_a_local_optimum() {
-    // 2 rows in 9 parameters take the updates of low rank; the result must not improve by any exchange of one posture.
+fn no_exchange_improves_the_result() {
+    // With 2 rows in 9 parameters no single posture identifies all of them.
     let candidates = random_candidates(8, 30, 2, 9);
     let test = random_candidates(9, 1, 12, 9).remove(0);
     for criterion in criteria(&test.tr_mul(&test)) {

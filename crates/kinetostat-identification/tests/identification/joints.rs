@@ -638,3 +638,35 @@ fn exchanged_markers_are_named() -> Outcome {
     assert_eq!(exchanged(&observations)?, ["3"]);
     Ok(())
 }
+
+#[test]
+fn units_and_signs_that_cannot_be_are_asked_about() -> Outcome {
+    let model = h6(false);
+    let observations = twenty_postures(&model)?;
+    let unknowns = Unknowns::matching(&model, &["joints"])?;
+    let options = FitOptions {
+        theory: Theory::SmallLoads,
+        robust: false,
+        prior: None,
+    };
+    for (factor, asked) in [
+        (1.0, false),
+        (3.0, false),
+        (1e3, true),
+        (1e-3, true),
+        (-1.0, true),
+    ] {
+        let mut other = observations.clone();
+        other
+            .iter_mut()
+            .flat_map(|o| &mut o.readings)
+            .for_each(|r| r.value *= factor);
+        let found = identification(&unknowns, &other, &options)?;
+        let is_asked = found
+            .findings
+            .iter()
+            .any(|f| matches!(f, Finding::Scale { .. }));
+        assert_eq!(is_asked, asked, "{factor}: {:?}", found.findings);
+    }
+    Ok(())
+}
