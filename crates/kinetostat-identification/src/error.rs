@@ -61,7 +61,7 @@ pub enum IdentificationError {
     },
     /// The constrained least squares have no solution.
     #[error(transparent)]
-    Constraints(#[from] crate::cone::ConeError),
+    Constraints(#[from] crate::cone::NotSolved),
     /// Nothing to fit.
     #[error("there are no readings")]
     NoReadings,

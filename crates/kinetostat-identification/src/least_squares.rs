@@ -14,7 +14,7 @@
 use kinetostat::linalg::SingularValues;
 use nalgebra::{DMatrix, DVector};
 
-use crate::cone::{ConeError, ConeLeastSquares, Constraint};
+use crate::cone::{ConstrainedRows, Constraint, NotSolved};
 
 /// Readings of one posture: linear in the unknowns, each row divided by the standard deviation of its reading.
 #[derive(Clone, Debug)]
@@ -104,12 +104,12 @@ pub struct Start<'a> {
 /// are there. `robust` weighs rows that are far from the fit less (Huber), until the estimate does not change.
 ///
 /// # Errors
-/// As [`ConeLeastSquares::solve`], which is asked where the estimate does not meet the constraints.
+/// As [`ConstrainedRows::solve`], which is asked where the estimate does not meet the constraints.
 pub fn fit(
     postures: &[PostureRows],
     problem: &Start<'_>,
     robust: bool,
-) -> Result<LinearFit, ConeError> {
+) -> Result<LinearFit, NotSolved> {
     let sizes = problem.sizes;
     let mut weights: Vec<_> = postures
         .iter()
@@ -157,7 +157,7 @@ fn weighted(
     postures: &[PostureRows],
     weights: &[DVector<f64>],
     problem: &Start<'_>,
-) -> Result<LinearFit, ConeError> {
+) -> Result<LinearFit, NotSolved> {
     let Start {
         from,
         sizes,
@@ -174,19 +174,39 @@ fn weighted(
     let mut estimate = from + (&inverse * left).component_mul(sizes);
     let mut at_bound = Vec::new();
     if !constraints.iter().all(|c| c.holds(&estimate)) {
-        let problem = ConeLeastSquares::new(&triangle, &right, constraints);
-        let problem = problem.reference(from).nominal_sizes(sizes.as_slice());
+        let problem = ConstrainedRows {
+            matrix: &triangle,
+            values: &right,
+            constraints,
+            reference: from,
+            sizes,
+        };
         let solved = problem.solve()?;
-        estimate = solved.x;
-        for (constraint, state) in constraints.iter().zip(&solved.blocks) {
-            if state.at_bound > 0 {
-                at_bound.push(constraint.columns()[0]);
-            }
-            if let (Constraint::NonNegative(column), true) = (constraint, state.at_bound > 0) {
+        estimate = solved.estimate;
+        let zeros = constraints
+            .iter()
+            .zip(&solved.at_bound)
+            .filter(|(_, count)| **count > 0);
+        for (constraint, _) in zeros {
+            at_bound.push(constraint.columns()[0]);
+            if let Constraint::NonNegative(column) = constraint {
                 scaled.column_mut(*column).fill(0.0);
             }
         }
         (held, _) = pseudo_inverse(&scaled);
+        // The rest without the barrier, if it meets its constraints by itself.
+        let mut start = from.clone();
+        at_bound.iter().for_each(|k| start[*k] = 0.0);
+        let exact = &start + (&held * (&right - &triangle * &start)).component_mul(sizes);
+        let others = constraints
+            .iter()
+            .filter(|c| !at_bound.contains(&c.columns()[0]));
+        let is_exact = constraints
+            .iter()
+            .all(|c| matches!(c, Constraint::NonNegative(_)));
+        if is_exact && others.into_iter().all(|c| c.holds(&exact)) {
+            estimate = exact;
+        }
     }
     let normal = |inverse: &DMatrix<f64>| {
         let scaled = inverse * inverse.transpose();

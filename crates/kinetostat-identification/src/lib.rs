@@ -36,7 +36,7 @@ mod unknown;
 mod written;
 
 pub use axes::Axes;
-pub use cone::{BlockState, ConeError, ConeLeastSquares, ConeSolution, Constraint, KktResidual};
+pub use cone::{Constrained, ConstrainedRows, Constraint, NotSolved};
 pub use error::IdentificationError;
 pub use experiment::{Branch, Observation, Reading, ReadingOf, TestLoad};
 pub use findings::Finding;

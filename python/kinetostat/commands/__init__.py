@@ -25,6 +25,7 @@ from kinetostat.commands._equilibria import equilibria
 from kinetostat.commands._expand import expand
 from kinetostat.commands._force import force
 from kinetostat.commands._frf import frf
+from kinetostat.commands._identify import identify
 from kinetostat.commands._import import import_link_displacements, import_matrix, import_urdf
 from kinetostat.commands._lobes import lobes
 from kinetostat.commands._map import map
@@ -32,6 +33,7 @@ from kinetostat.commands._mirror import mirror
 from kinetostat.commands._model import model_compare, model_draw, model_list, model_schema, model_show
 from kinetostat.commands._modes import modes
 from kinetostat.commands._place import place
+from kinetostat.commands._plan_measurement import plan_measurement
 from kinetostat.commands._reproduce import reproduce
 from kinetostat.commands._shares import shares
 from kinetostat.commands._stiffness import stiffness
@@ -56,6 +58,7 @@ __all__ = [
     "expand",
     "force",
     "frf",
+    "identify",
     "import_link_displacements",
     "import_matrix",
     "import_urdf",
@@ -69,6 +72,7 @@ __all__ = [
     "model_show",
     "modes",
     "place",
+    "plan_measurement",
     "reproduce",
     "run",
     "shares",

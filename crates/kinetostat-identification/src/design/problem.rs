@@ -6,7 +6,6 @@ use nalgebra::{DMatrix, DVector};
 use super::error::DesignError;
 use super::objective::Objective;
 use super::{Criterion, DesignSettings};
-use crate::cone::symmetric::square_root;
 
 /// Smallest singular value of all observation rows together, relative to the largest and with columns of unit length, at which a
 /// combination of parameters counts as identifiable.
@@ -205,4 +204,40 @@ fn check(
         }
     }
     Ok(())
+}
+
+/// Asymmetry and negative eigenvalues up to this size are rounding, for a unit diagonal.
+const ROUNDING: f64 = 1e-9;
+
+/// Eigenvalues below this fraction of the largest are zero.
+const ZERO_EIGENVALUE: f64 = 1e-13;
+
+/// Matrix `B` (n x rank) with `B B^T = matrix`; `None` if the matrix is not square, finite, symmetric and positive semi-definite.
+pub(super) fn square_root(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    if !matrix.is_square() {
+        return None;
+    }
+    // Unit diagonal: the units of the unknowns must not decide about the rank.
+    let sizes = matrix
+        .diagonal()
+        .map(|d| if d > 0.0 { d.sqrt() } else { 1.0 });
+    let scaled = DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, k| {
+        matrix[(i, k)] / sizes[i] / sizes[k]
+    });
+    let is_symmetric = (&scaled - scaled.transpose()).amax() <= ROUNDING;
+    let is_negative = scaled.diagonal().iter().any(|d| *d < 0.0);
+    if !scaled.iter().all(|v| v.is_finite()) || !is_symmetric || is_negative {
+        return None;
+    }
+    let eigen = ((&scaled + scaled.transpose()) * 0.5).symmetric_eigen();
+    let values = &eigen.eigenvalues;
+    if values.min() < -ROUNDING * values.amax() {
+        return None;
+    }
+    let kept: Vec<usize> = (0..values.len())
+        .filter(|&k| values[k] > ZERO_EIGENVALUE * values.amax())
+        .collect();
+    Some(DMatrix::from_fn(matrix.nrows(), kept.len(), |i, k| {
+        sizes[i] * eigen.eigenvectors[(i, kept[k])] * values[kept[k]].sqrt()
+    }))
 }

@@ -2,8 +2,7 @@
 
 mod active_set;
 mod candidates;
-mod cone_link;
-mod cone_scalars;
+mod cone;
 mod design;
 mod design_refusals;
 mod fanuc;
