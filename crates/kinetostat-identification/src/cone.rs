@@ -18,7 +18,9 @@
 use kinetostat::linalg::SingularValues;
 use nalgebra::{DMatrix, DVector};
 
-use crate::least_squares::UNSEEN;
+/// Relative singular value below which the readings do not see a combination of unknowns: far above rounding, far below the least
+/// that a measurement could use.
+pub const UNSEEN: f64 = 1e-9;
 
 /// Physical constraint on one unknown, or on the unknowns that form a symmetric matrix.
 #[derive(Clone, Debug, PartialEq, Eq)]

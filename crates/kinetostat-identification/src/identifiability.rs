@@ -9,7 +9,8 @@ use nalgebra::{DMatrix, DVector};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::least_squares::{LinearFit, PostureRows, UNSEEN, reduced};
+use crate::cone::UNSEEN;
+use crate::least_squares::{LinearFit, PostureRows, reduced};
 
 /// Standard deviation relative to the value above which a number is weakly known.
 pub const WEAK: f64 = 0.3;

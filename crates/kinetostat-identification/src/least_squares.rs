@@ -14,7 +14,7 @@
 use kinetostat::linalg::SingularValues;
 use nalgebra::{DMatrix, DVector};
 
-use crate::cone::{ConstrainedRows, Constraint, NotSolved};
+use crate::cone::{ConstrainedRows, Constraint, NotSolved, UNSEEN};
 
 /// Readings of one posture: linear in the unknowns, each row divided by the standard deviation of its reading.
 #[derive(Clone, Debug)]
@@ -24,10 +24,6 @@ pub struct PostureRows {
     /// The readings.
     pub values: DVector<f64>,
 }
-
-/// Relative singular value below which the readings do not see a combination of unknowns: far above rounding, far below the least
-/// that a measurement could use.
-pub const UNSEEN: f64 = 1e-9;
 
 /// Unknowns from rows.
 #[derive(Clone, Debug)]

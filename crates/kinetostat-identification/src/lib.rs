@@ -36,14 +36,14 @@ mod unknown;
 mod written;
 
 pub use axes::Axes;
-pub use cone::{Constrained, ConstrainedRows, Constraint, NotSolved};
+pub use cone::{Constrained, ConstrainedRows, Constraint, NotSolved, UNSEEN};
 pub use error::IdentificationError;
 pub use experiment::{Branch, Observation, Reading, ReadingOf, TestLoad};
 pub use findings::Finding;
 pub use fit::{Fit, FitOptions, identify};
 pub use identifiability::{Combination, Identifiability, Knowledge, WEAK};
 pub use identified::{IdentifiedNumber, PostureResiduals};
-pub use least_squares::{HUBER, LinearFit, PostureRows, Start, UNSEEN, fit as least_squares};
+pub use least_squares::{HUBER, LinearFit, PostureRows, Start, fit as least_squares};
 pub use plan::{Plan, PlanError, PlanTask, PlannedMeasurement, Purpose, Room, plan};
 pub use prediction::{Prediction, Theory, predict};
 pub use result::{Identification, identification};

@@ -3,6 +3,7 @@
 //! It takes a model and a table of measurements and gives the numbers with what is known of them, a model file with them, and their
 //! uncertainty.
 
+mod answer;
 mod text;
 
 use std::path::{Path, PathBuf};
@@ -10,17 +11,16 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use kinetostat_diagnostic::{Diagnostic, ErrorCode, Location};
 use kinetostat_identification::{
-    Axes, DEVIATION, FitOptions, Identification, IdentificationError, InstrumentFrame, MeasuredRow,
-    TableFault, Theory, Unknowns, identification, identified_model, into_base, observations,
-    read_table, uncertainty_file,
+    Axes, DEVIATION, FitOptions, Identification, IdentificationError, MeasuredRow, TableFault,
+    Theory, Unknowns, identification, identified_model, into_base, observations, read_table,
+    uncertainty_file,
 };
 use kinetostat_model::Model;
 use kinetostat_report::{Plot, PlotLine};
-use schemars::JsonSchema;
-use serde::Serialize;
 
 use crate::files::answer_files::{AnswerFiles, ClaimedFiles, Shown};
 use crate::files::input_files::InputFiles;
+use crate::identify::answer::{IdentifyAnswer, InstrumentPlace};
 use crate::options::number;
 use crate::ui::csv_table::{cell, written};
 use crate::ui::failure::{Answer, Failing, Failure};
@@ -99,45 +99,6 @@ Exit codes:
   1    wrong input: a file, a number or an option; the message says which
   2    no answer: the fit does not settle, or a posture has no equilibrium
   130  stopped with Ctrl-C; nothing was written";
-
-/// The answer, stable names with units.
-#[derive(Serialize, JsonSchema)]
-pub(crate) struct IdentifyAnswer {
-    schema: u32,
-    kinetostat_version: &'static str,
-    model: String,
-    model_source: String,
-    measurements: String,
-    /// Loads are small and weights left out.
-    small_loads: bool,
-    robust: bool,
-    /// Frame of the instrument in the base, if it was found.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    instrument: Option<InstrumentPlace>,
-    #[serde(flatten)]
-    found: Identification,
-}
-
-/// Where the instrument stood.
-#[derive(Serialize, JsonSchema)]
-pub(crate) struct InstrumentPlace {
-    position_mm: [f64; 3],
-    rotation_vector_deg: [f64; 3],
-    /// Distance of its places without a load from those of the model, root mean square.
-    left_mm: f64,
-    places: usize,
-}
-
-impl From<InstrumentFrame> for InstrumentPlace {
-    fn from(frame: InstrumentFrame) -> Self {
-        Self {
-            position_mm: (frame.origin * 1e3).into(),
-            rotation_vector_deg: frame.rotation.scaled_axis().map(f64::to_degrees).into(),
-            left_mm: 1e3 * frame.left,
-            places: frame.places,
-        }
-    }
-}
 
 /// Results that the command gives as JSON.
 pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<IdentifyAnswer>("identified numbers")];

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use kinetostat_identification::{IdentifiedNumber, Knowledge};
 
-use crate::identify::IdentifyAnswer;
+use crate::identify::answer::IdentifyAnswer;
 use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::{fixed, number, triple};
 

@@ -3,6 +3,7 @@
 //! It takes a model, loads, markers and what the measurement is for, and gives the postures as a table that `identify` reads when the
 //! readings are filled in, and as a sheet for the shop.
 
+mod answer;
 mod text;
 
 use std::path::{Path, PathBuf};
@@ -17,13 +18,12 @@ use kinetostat_identification::{
 use kinetostat_model::Model;
 use kinetostat_report::{Plot, PlotLine};
 use nalgebra::Vector3;
-use schemars::JsonSchema;
-use serde::Serialize;
 
 use crate::files::answer_files::{AnswerFiles, ClaimedFiles, Shown};
 use crate::files::input_files::InputFiles;
 use crate::options::{number, vector, whole};
 use crate::place::joints::JointValue;
+use crate::plan_measurement::answer::{PlanAnswer, PlanRow, PlannedNumber};
 use crate::ui::csv_table::{cell, written};
 use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::result_form::ResultForm;
@@ -128,46 +128,6 @@ Exit codes:
   1    wrong input: a file, a number or an option; the message says which
   2    no answer: no posture that can be taken, or loads that show nothing
   130  stopped with Ctrl-C; nothing was written";
-
-/// The answer, stable names with units.
-#[derive(Serialize, JsonSchema)]
-pub(crate) struct PlanAnswer {
-    schema: u32,
-    kinetostat_version: &'static str,
-    model: String,
-    model_source: String,
-    /// Postures that were chosen from.
-    candidates: usize,
-    /// Postures that were passed over: they cannot be taken, leave the room or hide a marker.
-    passed_over: usize,
-    /// Value of the plan beside the best that any plan with as many measurements could have: 1 is the best; null for the worst direction.
-    efficiency: Option<f64>,
-    /// Variance of the median of random plans, in that of this one.
-    variance_of_random_plans: Option<f64>,
-    /// Error that noise of the readings leaves after compensation at the postures of work, mm, root mean square.
-    left_error_mm: Option<f64>,
-    numbers: Vec<PlannedNumber>,
-    measurements: Vec<PlanRow>,
-}
-
-/// How well a number will be known.
-#[derive(Serialize, JsonSchema)]
-pub(crate) struct PlannedNumber {
-    number: String,
-    /// Standard deviation, percent of what the model says; null where no reading sees it.
-    deviation_percent: Option<f64>,
-}
-
-/// A measurement of the plan.
-#[derive(Serialize, JsonSchema)]
-pub(crate) struct PlanRow {
-    posture: String,
-    axes: Vec<JointValue>,
-    position_mm: [f64; 3],
-    force_n: [f64; 3],
-    /// Largest displacement of a marker that the model expects.
-    expected_displacement_mm: f64,
-}
 
 /// Results that the command gives as JSON.
 pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<PlanAnswer>("planned measurements")];

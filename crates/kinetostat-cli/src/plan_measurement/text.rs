@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use kinetostat_identification::PlanTask;
 
-use crate::plan_measurement::{PlanAnswer, PlanRow};
+use crate::plan_measurement::answer::{PlanAnswer, PlanRow};
 use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::{fixed, number, triple};
 

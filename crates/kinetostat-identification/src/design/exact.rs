@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::DesignSettings;
+use super::criterion::DesignSettings;
 use super::error::DesignError;
 use super::problem::Problem;
 

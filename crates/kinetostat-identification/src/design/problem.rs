@@ -3,9 +3,9 @@
 use kinetostat::linalg::SingularValues;
 use nalgebra::{DMatrix, DVector};
 
+use super::criterion::{Criterion, DesignSettings};
 use super::error::DesignError;
 use super::objective::Objective;
-use super::{Criterion, DesignSettings};
 
 /// Smallest singular value of all observation rows together, relative to the largest and with columns of unit length, at which a
 /// combination of parameters counts as identifiable.

@@ -8,7 +8,7 @@ use kinetostat::linalg::SingularValues;
 use kinetostat::{Mechanism, PostureRequest};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use crate::table::MeasuredRow;
+use crate::table::row::MeasuredRow;
 
 /// Frame of an instrument.
 #[derive(Clone, Copy, Debug, PartialEq)]

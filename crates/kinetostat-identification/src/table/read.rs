@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::axes::Axes;
 use crate::experiment::TestLoad;
 use crate::table::columns::{Column, NoColumn, column_of};
-use crate::table::{MOST_FAULTS, MeasuredRow, Read, TableFault};
+use crate::table::row::{MOST_FAULTS, MeasuredRow, Read, TableFault};
 
 /// Rows of a table, whose columns [`crate::COLUMNS`] lists.
 ///
