@@ -73,7 +73,8 @@ impl<'m> Axes<'m> {
     }
 
     /// What is wrong with commands outside the limits of their actuators, one message for each.
-    pub(crate) fn beyond_limits(&self, commands: &[f64]) -> Vec<String> {
+    #[must_use]
+    pub fn beyond_limits(&self, commands: &[f64]) -> Vec<String> {
         let mechanism = &self.model.mechanism;
         let actuators = mechanism.limbs().iter().flat_map(|l| l.nominal.actuators());
         let each = actuators.zip(mechanism.actuator_names()).zip(commands);

@@ -1,7 +1,7 @@
 //! How a machine changes with the unknowns: the springs' matrices, or the whole machine.
 
 use kinetostat::Mechanism;
-use nalgebra::{DVector, Matrix6};
+use nalgebra::{DMatrix, DVector, Matrix6};
 
 use crate::compliance_matrix::{entries, inverse, matrix_of};
 use crate::error::IdentificationError;
@@ -23,6 +23,15 @@ pub(crate) enum Change {
     Friction,
 }
 
+/// Change of a stiffness matrix with an entry of its inverse: `dK = -K dC K`.
+fn stiffness_change(upper: &DVector<f64>, row: usize, column: usize) -> Matrix6<f64> {
+    let stiffness = inverse(&matrix_of(upper));
+    let mut unit = Matrix6::zeros();
+    unit[(row, column)] = 1.0;
+    unit[(column, row)] = 1.0;
+    -stiffness * unit * stiffness
+}
+
 /// Change of the springs with an entry of a compliance matrix, from their changes with the entries of its inverse: `dK = -K dC K`.
 fn of_entry(
     upper: &DVector<f64>,
@@ -30,11 +39,7 @@ fn of_entry(
     column: usize,
     by_stiffness: &[Change],
 ) -> Vec<SpringChange> {
-    let stiffness = inverse(&matrix_of(upper));
-    let mut unit = Matrix6::zeros();
-    unit[(row, column)] = 1.0;
-    unit[(column, row)] = 1.0;
-    let change = -stiffness * unit * stiffness;
+    let change = stiffness_change(upper, row, column);
     let mut sum: Vec<SpringChange> = Vec::new();
     for ((r, c), by_stiffness) in entries().zip(by_stiffness) {
         let Change::Springs(springs) = by_stiffness else {
@@ -93,6 +98,29 @@ impl Unknowns {
         let mut out = self.by_compliance(values, by_number);
         out.resize_with(self.list.len(), || Change::Friction);
         Ok(out)
+    }
+
+    /// Derivatives of the numbers of the file, each in its unit, by the unknowns.
+    pub(crate) fn slopes_in_file(&self, values: &DVector<f64>) -> DMatrix<f64> {
+        let count = self.list.len();
+        let mut slopes = DMatrix::zeros(count, count);
+        for (i, unknown) in self.list.iter().enumerate() {
+            let in_si = unknown.parameter.in_si;
+            match unknown.form {
+                Form::Compliance => slopes[(i, i)] = -values[i].powi(-2) / in_si,
+                Form::MatrixEntry(row, column) => {
+                    let first = i - entries().position(|e| e == (row, column)).unwrap_or(0);
+                    let change =
+                        stiffness_change(&values.rows(first, 21).into_owned(), row, column);
+                    for (k, entry) in entries().enumerate() {
+                        slopes[(first + k, i)] =
+                            change[entry] / self.list[first + k].parameter.in_si;
+                    }
+                }
+                _ => slopes[(i, i)] = 1.0 / in_si,
+            }
+        }
+        slopes
     }
 
     /// From derivatives by stiffnesses to those by compliances.

@@ -31,6 +31,11 @@ pub enum Finding {
         /// Its standard deviation, percent.
         deviation_percent: f64,
     },
+    /// Loops of loading and unloading show no friction of a drive.
+    NoFriction {
+        /// Which friction.
+        number: String,
+    },
     /// A spring beside the joints came out without stiffness.
     Absent {
         /// Path of the number.
@@ -95,6 +100,7 @@ impl fmt::Display for Finding {
                 f,
                 "{number}: weakly known, to {deviation_percent:.0} %; load the machine so that more of the deflection comes from it, or read more often"
             ),
+            Self::NoFriction { number } => write!(f, "{number}: none is seen in the loops"),
             Self::Absent { number } => write!(
                 f,
                 "{number}: the readings do not tell it from none; the force of such a spring shows in absolute positions and torques, hardly in how stiff the machine is"
@@ -116,7 +122,7 @@ impl fmt::Display for Finding {
             ),
             Self::Scatter { times } => write!(
                 f,
-                "the readings scatter {times:.1} times as much about the fit as their standard deviations say: the model lacks something that yields, or the readings are less exact than stated; all deviations here are {times:.1} times larger for it"
+                "the readings scatter {times:.1} times as much about the fit as their standard deviations say: the model lacks something that yields, or the readings are less exact than stated; the deviations above take the scatter into account"
             ),
             Self::Scale { times } if *times < 0.0 => write!(
                 f,
@@ -154,6 +160,9 @@ pub(crate) fn findings(
                 number: name(),
                 known: number.known_combination.clone(),
             }),
+            _ if number.at_bound && !number.is_of_model => {
+                out.push(Finding::NoFriction { number: name() });
+            }
             _ if number.at_bound && number.acts_beside_joints => {
                 out.push(Finding::Absent { number: name() })
             }

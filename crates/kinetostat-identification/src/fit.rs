@@ -27,6 +27,8 @@ pub struct Fit {
     pub linear: LinearFit,
     /// Its rows, posture by posture.
     pub postures: Vec<PostureRows>,
+    /// Rows of what was believed before.
+    pub prior: Option<PostureRows>,
     /// Names of the postures.
     pub names: Vec<String>,
     /// Readings of the model as it was, less what was read, in standard deviations, posture by posture.
@@ -76,7 +78,7 @@ pub fn identify(
             .collect())
     };
     let misfit = |postures: &[PostureRows], values: &DVector<f64>| -> f64 {
-        let all = postures.iter().chain(&prior);
+        let all = postures.iter().chain(prior.as_ref());
         all.map(|p| loss(&(&p.values - &p.rows * values), options.robust))
             .sum()
     };
@@ -85,7 +87,7 @@ pub fn identify(
     let before: Vec<DVector<f64>> = residuals.collect();
     let mut change = f64::NAN;
     for steps in 1..=MOST_STEPS {
-        let with_prior: Vec<PostureRows> = postures.iter().chain(&prior).cloned().collect();
+        let with_prior: Vec<PostureRows> = postures.iter().chain(prior.as_ref()).cloned().collect();
         let mut linear = fit(&with_prior, &start, options.robust)?;
         let next = unknowns.buildable(&linear.estimate);
         change = (&next - &values).component_div(&sizes).amax();
@@ -101,6 +103,7 @@ pub fn identify(
             return Ok(Fit {
                 linear,
                 postures,
+                prior,
                 names: groups.iter().map(|(name, _)| (*name).to_owned()).collect(),
                 before,
                 readings: readings.collect(),

@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::cone::UNSEEN;
-use crate::least_squares::{LinearFit, PostureRows, reduced};
+use crate::least_squares::{PostureRows, reduced};
 
 /// Standard deviation relative to the value above which a number is weakly known.
 pub const WEAK: f64 = 0.3;
@@ -79,20 +79,15 @@ impl Identifiability {
         }
     }
 
-    /// How well each unknown is known by a fit, of unknowns with these sizes and deviations.
+    /// How well each unknown is known, by their standard deviations relative to their sizes.
     #[must_use]
-    pub fn knowledge(&self, fit: &LinearFit, deviations: &DVector<f64>) -> Vec<Knowledge> {
-        let each = self
-            .seen_alone
-            .iter()
-            .zip(fit.estimate.iter().zip(deviations.iter()));
-        each.map(
-            |(seen, (value, deviation))| match (seen, deviation / value.abs() < WEAK) {
-                (false, _) => Knowledge::Unseen,
-                (true, true) => Knowledge::Identified,
-                (true, false) => Knowledge::Weak,
-            },
-        )
+    pub fn knowledge(&self, relative_deviations: &DVector<f64>) -> Vec<Knowledge> {
+        let each = self.seen_alone.iter().zip(relative_deviations.iter());
+        each.map(|(seen, deviation)| match (seen, *deviation < WEAK) {
+            (false, _) => Knowledge::Unseen,
+            (true, true) => Knowledge::Identified,
+            (true, false) => Knowledge::Weak,
+        })
         .collect()
     }
 }

@@ -16,9 +16,12 @@ pub struct IdentifiedNumber {
     pub before: f64,
     /// What the readings say; null where its compliance vanishes.
     pub identified: Option<f64>,
-    /// Standard deviation relative to the value, percent; of a stiffness that of its compliance. Null where nothing is known.
+    /// Standard deviation relative to the value, percent; of an entry of a matrix relative to the geometric mean of its diagonal entries.
+    /// Null where nothing is known.
     pub deviation_percent: Option<f64>,
-    /// Bounds with a confidence of 95 %; the upper one of a stiffness is null where it may be rigid.
+    /// Standard deviation in the unit of the number; null where nothing is known.
+    pub deviation: Option<f64>,
+    /// Bounds with a confidence of 95 %, none of an entry of a matrix; the upper one of a stiffness is null where it may be rigid.
     pub interval: Option<[Option<f64>; 2]>,
     /// It is zero, its bound: the compliance of a spring that the readings do not tell from rigid.
     pub at_bound: bool,

@@ -274,9 +274,14 @@ impl LinearFit {
         self.normal_inverse.diagonal().map(|v| v.max(0.0).sqrt())
     }
 
-    /// Covariance of the unknowns that holds whatever readings of one posture have in common. None for fewer than two postures.
+    /// Covariance of the unknowns that holds whatever readings of one posture have in common; rows of a prior are as sure as they say.
+    /// None for fewer than two postures.
     #[must_use]
-    pub fn covariance_by_postures(&self, postures: &[PostureRows]) -> Option<DMatrix<f64>> {
+    pub fn covariance_by_postures(
+        &self,
+        postures: &[PostureRows],
+        prior: Option<&PostureRows>,
+    ) -> Option<DMatrix<f64>> {
         let count = postures.len();
         if count < 2 {
             return None;
@@ -288,8 +293,11 @@ impl LinearFit {
             let pull = posture.rows.tr_mul(&residual.component_mul(weight));
             middle.ger(1.0, &pull, &pull, 1.0);
         }
-        let factor = count as f64 / (count - 1) as f64;
-        Some(&self.normal_inverse * middle * &self.normal_inverse * factor)
+        middle *= count as f64 / (count - 1) as f64;
+        if let Some(prior) = prior {
+            middle += prior.rows.tr_mul(&prior.rows);
+        }
+        Some(&self.normal_inverse * middle * &self.normal_inverse)
     }
 
     /// Residuals of every posture against the fit to all others, in standard deviations; none where the others do not determine

@@ -15,7 +15,7 @@ use crate::error::IdentificationError;
 use crate::experiment::{Observation, Reading, TestLoad};
 use crate::identifiability::Identifiability;
 use crate::least_squares::PostureRows;
-use crate::prediction::{Prediction, Theory, predict};
+use crate::prediction::{Prediction, Theory, predict, predict_each};
 use crate::unknown::Unknowns;
 
 /// What the measurement is for.
@@ -135,61 +135,78 @@ pub fn plan(task: &PlanTask<'_>) -> Result<Plan, PlanError> {
         })
         .collect();
     let sizes = task.unknowns.sizes();
-    let predictions = predict(
-        task.unknowns,
-        &task.unknowns.nominal(),
-        &observations,
-        task.theory,
-    )?;
+    let nominal = task.unknowns.nominal();
+    // A load under which the machine has no equilibrium is none to choose.
+    let each = predict_each(task.unknowns, &nominal, &observations, task.theory)?;
+    let possible = observations.into_iter().zip(each);
+    let possible = possible.filter_map(|(o, p)| Some((o, p.ok()?)));
+    let (observations, predictions): (Vec<Observation>, Vec<Prediction>) = possible.unzip();
+    if predictions.is_empty() {
+        return Err(PlanError::NothingSeen);
+    }
+    let all = sizes.len();
     let scaled = |p: &Prediction, deviation: f64| {
-        DMatrix::from_fn(p.derivatives.nrows(), sizes.len(), |i, j| {
+        DMatrix::from_fn(p.derivatives.nrows(), all, |i, j| {
             p.derivatives[(i, j)] * sizes[j] / deviation
         })
     };
-    let rows: Vec<DMatrix<f64>> = predictions
-        .iter()
-        .map(|p| scaled(p, task.deviation))
-        .collect();
+    let rows = predictions.iter().map(|p| scaled(p, task.deviation));
+    let rows: Vec<DMatrix<f64>> = rows.collect();
+    // A number on which no reading depends is no matter of choice.
+    let shown = shown(&rows, all);
+    if shown.is_empty() {
+        return Err(PlanError::NothingSeen);
+    }
+    let rows: Vec<DMatrix<f64>> = rows.iter().map(|a| a.select_columns(&shown)).collect();
+    let seen_alone = seen_alone(&rows, shown.len());
     let criterion = match &task.purpose {
         Purpose::Compensation(test) => {
-            let predictions = predict(task.unknowns, &task.unknowns.nominal(), test, task.theory)?;
+            let predictions = predict(task.unknowns, &nominal, test, task.theory)?;
             let count = predictions.len() as f64;
             let each = predictions
                 .iter()
-                .map(|p| scaled(p, 1.0))
-                .map(|a| a.tr_mul(&a) / count);
-            Criterion::TestPoses(
-                each.reduce(|a, b| a + b)
-                    .ok_or(IdentificationError::NoReadings)?,
-            )
+                .map(|p| scaled(p, 1.0).select_columns(&shown));
+            let each = each.map(|a| a.tr_mul(&a) / count);
+            let sum = each
+                .reduce(|a, b| a + b)
+                .ok_or(IdentificationError::NoReadings)?;
+            Criterion::TestPoses(sum)
+        }
+        // Variances of the numbers that can be known, not of the parts of a combination.
+        Purpose::Average if seen_alone.contains(&false) => {
+            let weights = seen_alone.iter().map(|seen| f64::from(u8::from(*seen)));
+            let weights: Vec<f64> = weights.collect();
+            Criterion::TestPoses(DMatrix::from_diagonal(&nalgebra::DVector::from_vec(
+                weights,
+            )))
         }
         Purpose::Average => Criterion::Average,
         Purpose::Determinant => Criterion::Determinant,
         Purpose::WorstDirection => Criterion::WorstDirection,
     };
-    let seen_alone = seen_alone(&rows, sizes.len());
-    if !seen_alone.iter().any(|seen| *seen) {
-        return Err(PlanError::NothingSeen);
-    }
-    // What no reading sees is taken to be known to its size, so that the rest can be planned.
+    let none = DMatrix::zeros(shown.len(), shown.len());
+    // The parts of a combination are taken to be known to their sizes, so that the rest can be planned.
     let settings = DesignSettings {
-        fixed_information: seen_alone
-            .contains(&false)
-            .then(|| DMatrix::identity(sizes.len(), sizes.len())),
+        fixed_information: (seen_alone.contains(&false))
+            .then(|| DMatrix::identity(shown.len(), shown.len())),
         seed: u64::from(task.seed),
         ..DesignSettings::default()
     };
     let found = exact(&rows, &criterion, task.count.min(rows.len()), &settings)?;
-    let mut information = settings
-        .fixed_information
-        .clone()
-        .unwrap_or_else(|| DMatrix::zeros(sizes.len(), sizes.len()));
+    let mut information = settings.fixed_information.clone().unwrap_or(none);
     for chosen in &found.postures {
         information += rows[*chosen].tr_mul(&rows[*chosen]);
     }
     let covariance = information.try_inverse().ok_or(PlanError::NothingSeen)?;
-    let variances = covariance.diagonal();
-    let deviations = seen_alone.iter().zip(variances.iter());
+    let mut deviations = vec![None; all];
+    for (k, variance) in covariance
+        .diagonal()
+        .iter()
+        .enumerate()
+        .filter(|(k, _)| seen_alone[*k])
+    {
+        deviations[shown[k]] = Some(variance.max(0.0).sqrt());
+    }
     let mut measurements: Vec<PlannedMeasurement> = found
         .postures
         .iter()
@@ -219,11 +236,11 @@ pub fn plan(task: &PlanTask<'_>) -> Result<Plan, PlanError> {
         passed_over,
         efficiency: found.efficiency,
         gain: gain(&rows, &criterion, task, &settings, found.value),
-        deviations: deviations
-            .map(|(seen, variance)| seen.then(|| variance.max(0.0).sqrt()))
-            .collect(),
+        deviations,
         left_error: match &criterion {
-            Criterion::TestPoses(l) => Some((l * &covariance).trace().max(0.0).sqrt()),
+            Criterion::TestPoses(l) if matches!(task.purpose, Purpose::Compensation(_)) => {
+                Some((l * &covariance).trace().max(0.0).sqrt())
+            }
             _ => None,
         },
     })
@@ -274,7 +291,7 @@ fn drawn(task: &PlanTask<'_>, mechanism: &Mechanism) -> Result<(Vec<Vec<f64>>, u
                 let share = f64::from(sample(
                     i as u32 % (1 << 16),
                     d as u32,
-                    task.seed + (i >> 16) as u32,
+                    task.seed.wrapping_add((i >> 16) as u32),
                 ));
                 low + share * (high - low)
             })
@@ -362,6 +379,14 @@ fn distance(a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>, d: &Vector3<f6
     ends.into_iter().fold(between, f64::min)
 }
 
+/// Numbers on which a reading depends.
+fn shown(rows: &[DMatrix<f64>], unknowns: usize) -> Vec<usize> {
+    let largest = |j: usize| rows.iter().map(|a| a.column(j).amax()).fold(0.0, f64::max);
+    let each: Vec<f64> = (0..unknowns).map(largest).collect();
+    let most = each.iter().copied().fold(0.0, f64::max);
+    (0..unknowns).filter(|j| each[*j] > 1e-9 * most).collect()
+}
+
 fn seen_alone(rows: &[DMatrix<f64>], unknowns: usize) -> Vec<bool> {
     let rows: Vec<PostureRows> = rows
         .iter()
@@ -385,7 +410,7 @@ fn gain(
         .filter_map(|set| {
             let mut chosen: Vec<usize> = Vec::new();
             for k in 0..(4 * task.count) {
-                let share = f64::from(sample(k as u32, set as u32, task.seed + 1));
+                let share = f64::from(sample(k as u32, set as u32, task.seed.wrapping_add(1)));
                 let i = (share * rows.len() as f64) as usize;
                 if chosen.len() < task.count && !chosen.contains(&i) {
                     chosen.push(i);

@@ -53,6 +53,18 @@ pub fn predict(
     observations: &[Observation],
     theory: Theory,
 ) -> Result<Vec<Prediction>, IdentificationError> {
+    predict_each(unknowns, values, observations, theory)?
+        .into_iter()
+        .collect()
+}
+
+/// The same, one by one: an observation may have no answer.
+pub(crate) fn predict_each(
+    unknowns: &Unknowns,
+    values: &DVector<f64>,
+    observations: &[Observation],
+    theory: Theory,
+) -> Result<Vec<Result<Prediction, IdentificationError>>, IdentificationError> {
     let mechanism = unknowns.mechanism(values)?;
     let changes = unknowns.changes(values)?;
     let of_machine = changes
@@ -74,8 +86,11 @@ pub fn predict(
         machine.add_friction(observation, values, &mut found)?;
         Ok(found)
     });
-    each.collect()
+    Ok(each.collect())
 }
+
+/// Share of the largest torque below which a drive is not loaded.
+const NO_TORQUE: f64 = 1e-4;
 
 struct Machine<'a> {
     mechanism: &'a Mechanism,
@@ -145,12 +160,26 @@ impl Machine<'_> {
             .ok_or_else(free)?;
         let grows = if branch.unloading { -1.0 } else { 1.0 };
         let drives = drive_coordinates(self.mechanism);
+        let torques = drives
+            .iter()
+            .map(|(_, at)| at.map_or(0.0, |at| torque(&whole, at)));
+        let torques: Vec<f64> = torques.collect();
+        let largest = torques.iter().map(|t| t.abs()).fold(0.0, f64::max);
+        // A load that does not turn a drive moves no friction.
+        let signs = torques.iter().map(|t| {
+            if t.abs() > NO_TORQUE * largest {
+                t.signum()
+            } else {
+                0.0
+            }
+        });
+        let signs: Vec<f64> = signs.collect();
         for (i, reading) in observation.readings.iter().enumerate() {
             let arm = posture.target().rotation * (reading.marker - observation.load.at);
             let virtual_motion = tangent.under(&wrench_of(reading, &arm)).ok_or_else(free)?;
-            let drives = drives.iter().enumerate();
-            for (k, at) in drives.filter_map(|(k, (_, at))| Some((first + k, (*at)?))) {
-                let derivative = -grows * torque(&whole, at).signum() * torque(&virtual_motion, at);
+            for (sign, (k, (_, at))) in signs.iter().zip((first..).zip(&drives)) {
+                let Some(at) = at else { continue };
+                let derivative = -grows * sign * torque(&virtual_motion, *at);
                 into.derivatives[(i, k)] = derivative;
                 into.values[i] += derivative * values[k];
             }

@@ -3,7 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 use schemars::JsonSchema;
 use serde::Serialize;
+use statrs::distribution::{ContinuousCDF, StudentsT};
 
+use crate::compliance_matrix::entries;
 use crate::error::IdentificationError;
 use crate::experiment::Observation;
 use crate::findings::{Finding, exchanged_markers, findings, scale};
@@ -37,8 +39,8 @@ pub struct Identification {
     pub steps: usize,
     /// The numbers.
     pub numbers: Vec<IdentifiedNumber>,
-    /// Covariance of the numbers relative to their values, in their order: of compliances where numbers are stiffnesses.
-    pub relative_covariance: Vec<Vec<f64>>,
+    /// Covariance of the numbers in their units, in their order.
+    pub covariance: Vec<Vec<f64>>,
     /// Residuals posture by posture.
     pub residuals: Vec<PostureResiduals>,
     /// What must be known.
@@ -58,8 +60,17 @@ pub fn identification(
     let seen = Identifiability::of(&fit.postures, &unknowns.sizes());
     let covariance = covariance(&fit);
     let deviations = covariance.diagonal().map(|v| v.max(0.0).sqrt());
-    let knowledge = seen.knowledge(&fit.linear, &deviations);
-    let in_file = unknowns.in_file(&fit.linear.estimate);
+    let estimate = &fit.linear.estimate;
+    // Numbers of a matrix are compared with its diagonal, all others with themselves.
+    let sizes = DVector::from_fn(estimate.len(), |i, _| match unknowns.list()[i].form {
+        Form::MatrixEntry(..) => unknowns.list()[i].size,
+        _ => estimate[i].abs(),
+    });
+    let knowledge = seen.knowledge(&deviations.component_div(&sizes));
+    let in_file = unknowns.in_file(estimate);
+    let slopes = unknowns.slopes_in_file(estimate);
+    let in_units = &slopes * &covariance * slopes.transpose();
+    let quantile = student_95(fit.names.len(), fit.linear.degrees_of_freedom());
     let numbers: Vec<IdentifiedNumber> = unknowns
         .list()
         .iter()
@@ -69,19 +80,21 @@ pub fn identification(
             let combination = (known == Knowledge::Unseen)
                 .then(|| combination_of(i, &seen, unknowns))
                 .flatten();
-            let number = number_of(
-                unknown,
-                fit.linear.estimate[i],
-                in_file.get(i).copied().unwrap_or(fit.linear.estimate[i]),
-                deviations[i],
-                known,
-            );
+            let value = in_file.get(i).copied().unwrap_or(estimate[i]);
+            let number = number_of(unknown, estimate[i], value, deviations[i], known, quantile);
+            let in_unit = in_units[(i, i)].max(0.0).sqrt();
+            let of_matrix = matrix_size(unknowns, i, &in_file).map(|size| in_unit / size);
+            let relative = of_matrix.unwrap_or(deviations[i] / sizes[i]);
+            // What no reading sees is as sure as it was believed to be.
+            let is_known = known != Knowledge::Unseen || fit.prior.is_some();
             let at_bound = fit.linear.at_bound.contains(&i);
             let is_zero = at_bound && !matches!(unknown.form, Form::MatrixEntry(..));
             IdentifiedNumber {
                 at_bound,
                 known_combination: combination,
-                deviation_percent: number.deviation_percent.filter(|_| !is_zero),
+                deviation_percent: Some(100.0 * relative)
+                    .filter(|x| is_known && !is_zero && x.is_finite()),
+                deviation: Some(in_unit).filter(|x| is_known && !is_zero && x.is_finite()),
                 interval: number.interval.filter(|_| !is_zero),
                 ..number
             }
@@ -102,7 +115,6 @@ pub fn identification(
     let mut findings = findings(&numbers, &residuals, &fit.linear);
     findings.extend(exchanged_markers(&fit, observations));
     findings.splice(0..0, scale(&fit));
-    let estimate = &fit.linear.estimate;
     Ok(Identification {
         postures: fit.names.len(),
         readings: fit.postures.iter().map(|p| p.values.len()).sum(),
@@ -118,7 +130,7 @@ pub fn identification(
             .collect::<Option<Vec<_>>>()
             .map(|all| lengths.rms(&all)),
         steps: fit.steps,
-        relative_covariance: relative(&covariance, estimate),
+        covariance: rows_of(&in_units),
         numbers,
         residuals,
         findings,
@@ -133,7 +145,7 @@ fn covariance(fit: &Fit) -> DMatrix<f64> {
     let enough = fit.names.len() > fit.linear.rank;
     match fit
         .linear
-        .covariance_by_postures(&fit.postures)
+        .covariance_by_postures(&fit.postures, fit.prior.as_ref())
         .filter(|_| enough)
     {
         Some(by_postures) => by_postures,
@@ -141,16 +153,32 @@ fn covariance(fit: &Fit) -> DMatrix<f64> {
     }
 }
 
-fn relative(covariance: &DMatrix<f64>, estimate: &DVector<f64>) -> Vec<Vec<f64>> {
-    let n = estimate.len();
-    let entry = |i: usize, j: usize| covariance[(i, j)] / (estimate[i] * estimate[j]);
-    (0..n)
-        .map(|i| (0..n).map(|j| entry(i, j)).collect())
+fn rows_of(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    matrix
+        .row_iter()
+        .map(|row| row.iter().copied().collect())
         .collect()
 }
 
-/// Quantile of the normal distribution for a confidence of 95 %.
-const NORMAL_95: f64 = 1.959_963_984_540_054;
+/// Geometric mean of the diagonal entries of the row and the column of an entry of a matrix, in the unit of the entry.
+fn matrix_size(unknowns: &Unknowns, at: usize, in_file: &[f64]) -> Option<f64> {
+    let Form::MatrixEntry(row, column) = unknowns.list()[at].form else {
+        return None;
+    };
+    let index = |entry: (usize, usize)| entries().position(|e| e == entry).unwrap_or(0);
+    let first = at - index((row, column));
+    let si = |k: usize| {
+        let own = first + index((k, k));
+        in_file[own] * unknowns.list()[own].parameter.in_si
+    };
+    Some((si(row) * si(column)).sqrt() / unknowns.list()[at].parameter.in_si)
+}
+
+/// Quantile of Student's distribution for a confidence of 95 %: postures are what is independent, and few of them are less sure.
+fn student_95(postures: usize, degrees_of_freedom: usize) -> f64 {
+    let freedom = (postures.saturating_sub(1)).min(degrees_of_freedom).max(1);
+    StudentsT::new(0.0, 1.0, freedom as f64).map_or(f64::INFINITY, |t| t.inverse_cdf(0.975))
+}
 
 fn number_of(
     unknown: &Unknown,
@@ -158,12 +186,13 @@ fn number_of(
     in_file: f64,
     deviation: f64,
     knowledge: Knowledge,
+    quantile: f64,
 ) -> IdentifiedNumber {
     let unseen = knowledge == Knowledge::Unseen;
     let in_si = unknown.parameter.in_si;
     let (low, high) = (
-        estimate - NORMAL_95 * deviation,
-        estimate + NORMAL_95 * deviation,
+        estimate - quantile * deviation,
+        estimate + quantile * deviation,
     );
     let interval = match unknown.form {
         // The stiffness is largest where the compliance is least.
@@ -174,20 +203,14 @@ fn number_of(
         _ => [Some(low / in_si), Some(high / in_si)],
     };
     let is_entry = matches!(unknown.form, Form::MatrixEntry(..));
-    let size = if is_entry {
-        unknown.size
-    } else {
-        estimate.abs()
-    };
     IdentifiedNumber {
         number: unknown.parameter.path.clone(),
         unit: unknown.parameter.unit.to_owned(),
         before: unknown.parameter.value,
         identified: Some(in_file)
             .filter(|x| x.is_finite() && (unknown.form != Form::Compliance || estimate > 0.0)),
-        deviation_percent: (!unseen)
-            .then_some(100.0 * deviation / size)
-            .filter(|x| x.is_finite()),
+        deviation_percent: None,
+        deviation: None,
         interval: (!unseen && !is_entry).then_some(interval),
         at_bound: false,
         is_of_model: unknown.form != Form::Friction,

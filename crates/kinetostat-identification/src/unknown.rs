@@ -58,7 +58,7 @@ pub struct Unknowns {
 
 impl Unknowns {
     /// The numbers that match the patterns: a path, a path with `*` for any text, the path of a whole matrix, or `joints` for the
-    /// stiffness of every drive.
+    /// stiffness of every drive. Patterns take the springs that they match; a length, an angle or a mass is named by its whole path.
     ///
     /// ```
     /// use kinetostat_identification::Unknowns;
@@ -78,11 +78,17 @@ impl Unknowns {
         for pattern in patterns {
             let hits = |p: &Parameter| match *pattern {
                 "joints" => drives.contains(&p.path),
-                // A table by its path is all of its numbers, but for the factor on them.
+                // Several at once are those of springs; a length or a mass is named by itself. A table by its path has no factor on it.
                 own => {
                     let rest = p.path.strip_prefix(own);
                     let is_inside = rest.is_some_and(|rest| rest.starts_with('.'));
-                    matches(own, &p.path) || (is_inside && p.kind != ParameterKind::Factor)
+                    let is_any = is_inside || (own.contains('*') && matches(own, &p.path));
+                    let is_spring =
+                        matches!(form(p), Some(Form::Compliance | Form::MatrixEntry(..)));
+                    own == p.path
+                        || (is_any
+                            && is_spring
+                            && (own.contains('*') || p.kind != ParameterKind::Factor))
                 }
             };
             let found: Vec<&str> = all

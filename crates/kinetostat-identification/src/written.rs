@@ -3,7 +3,6 @@
 use kinetostat_model::{Model, NumberEdit};
 
 use crate::error::IdentificationError;
-use crate::identifiability::Knowledge;
 use crate::identified::IdentifiedNumber;
 use crate::result::Identification;
 
@@ -36,46 +35,36 @@ pub fn identified_model(
 }
 
 /// Relative standard deviation beyond which a normal distribution has machines with negative stiffness among thousands.
-const WIDEST: f64 = 0.24;
+const WIDEST: f64 = 24.0;
 
 /// The uncertainty of the identified numbers as a file for `tolerance` and for bands of compensated programs.
 #[must_use]
 pub fn uncertainty_file(found: &Identification, source: &str) -> String {
-    let is_wide = |i: usize| found.relative_covariance[i][i].max(0.0).sqrt() > WIDEST;
-    let seen: Vec<usize> = (0..found.numbers.len())
-        .filter(|i| {
-            found.numbers[*i].is_of_model
-                && found.numbers[*i].knowledge != Knowledge::Unseen
-                && found.numbers[*i].identified.is_some()
-        })
-        .collect();
-    let (wide, known): (Vec<usize>, Vec<usize>) = seen.into_iter().partition(|i| is_wide(*i));
+    let of_model = (found.numbers.iter().enumerate())
+        .filter(|(_, n)| n.is_of_model && n.identified.is_some())
+        .filter_map(|(i, n)| Some((i, n, n.deviation.zip(n.deviation_percent)?)));
+    let (wide, known): (Vec<_>, Vec<_>) =
+        of_model.partition(|(_, _, (_, percent))| *percent > WIDEST);
     let mut out = format!(
         "# Standard deviations and correlations of the numbers that were identified from {source}.\nschema = 1\n"
     );
-    for i in wide {
-        let percent = 100.0 * found.relative_covariance[i][i].sqrt();
+    for (_, number, (_, percent)) in wide {
         out += &format!(
             "# {} is known to {percent:.0} % only: no normal distribution of a stiffness is that wide, so it does not vary here.\n",
-            found.numbers[i].number
+            number.number
         );
     }
-    for i in &known {
-        let number = &found.numbers[*i];
-        let deviation = number.identified.unwrap_or(0.0).abs()
-            * found.relative_covariance[*i][*i].max(0.0).sqrt();
+    for (_, number, (deviation, _)) in &known {
         out += &format!(
             "\n[[uncertain]]\nparameter = {:?}\nnormal = {deviation:e} # {}\n",
             number.number, number.unit
         );
     }
-    for (k, i) in known.iter().enumerate() {
-        for j in &known[..k] {
-            let root =
-                (found.relative_covariance[*i][*i] * found.relative_covariance[*j][*j]).sqrt();
-            let coefficient = found.relative_covariance[*i][*j] / root;
+    for (k, (i, one, (of_one, _))) in known.iter().enumerate() {
+        for (j, other, (of_other, _)) in &known[..k] {
+            let coefficient = found.covariance[*i][*j] / (of_one * of_other);
             if coefficient.abs() > 1e-3 {
-                let (one, other) = (&found.numbers[*j].number, &found.numbers[*i].number);
+                let (one, other) = (&other.number, &one.number);
                 out += &format!(
                     "\n[[correlation]]\nbetween = [{one:?}, {other:?}]\ncoefficient = {coefficient:.6}\n"
                 );

@@ -59,9 +59,9 @@ def plan_measurement(
     mass_kg : float
         Mass that hangs on the tool, kg
     pull_n : float
-        Force of a string or cylinder, N, which may pull along x, y and z to both sides
+        Force of a string or cylinder, N, which pulls along x, along y and down
     pull_direction : Sequence[float]
-        Direction in which it may pull, base axes; once for each, instead of all six
+        Direction in which it may pull, base axes; once for each, instead of these three
     load_at : Sequence[float]
         Where the load acts, mm, in the tool's frame [default: its origin]
     marker : Sequence[float]

@@ -22,7 +22,7 @@ use nalgebra::Vector3;
 use crate::files::answer_files::{AnswerFiles, ClaimedFiles, Shown};
 use crate::files::input_files::InputFiles;
 use crate::options::{number, vector, whole};
-use crate::place::joints::JointValue;
+use crate::place::joints::{self, JointValue};
 use crate::plan_measurement::answer::{PlanAnswer, PlanRow, PlannedNumber};
 use crate::ui::csv_table::{cell, written};
 use crate::ui::failure::{Answer, Failing, Failure};
@@ -59,10 +59,10 @@ pub(crate) struct PlanMeasurementArgs {
     /// Mass that hangs on the tool, kg
     #[arg(long, value_name = "KG", value_parser = number, help_heading = "Loads")]
     pub(crate) mass_kg: Option<f64>,
-    /// Force of a string or cylinder, N, which may pull along x, y and z to both sides
+    /// Force of a string or cylinder, N, which pulls along x, along y and down
     #[arg(long, value_name = "N", value_parser = number, help_heading = "Loads")]
     pub(crate) pull_n: Option<f64>,
-    /// Direction in which it may pull, base axes; once for each, instead of all six
+    /// Direction in which it may pull, base axes; once for each, instead of these three
     #[arg(long, num_args = 3, action = clap::ArgAction::Append, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, value_parser = number, requires = "pull_n", help_heading = "Loads")]
     pub(crate) pull_direction: Vec<f64>,
     /// Where the load acts, mm, in the tool's frame [default: its origin]
@@ -212,7 +212,7 @@ fn task<'a>(
         deviation,
         count,
         candidates,
-        seed: args.seed.unwrap_or(0) as u32,
+        seed: seed(args)?,
         room: Room {
             bounds: [
                 range("--x", &args.x)?,
@@ -228,6 +228,30 @@ fn task<'a>(
         purpose: purpose(args, model)?,
         theory: Theory::Loaded,
     })
+}
+
+fn seed(args: &PlanMeasurementArgs) -> Answer<u32> {
+    let seed = args.seed.unwrap_or(0);
+    u32::try_from(seed).map_err(|_| {
+        ErrorCode::Value.failure(format!(
+            "--seed is {seed}; at most {} is possible",
+            u32::MAX
+        ))
+    })
+}
+
+/// Numbers of the postures, from 1: measurements without a motion between them are in one.
+fn postures(found: &Plan) -> Vec<usize> {
+    let mut number = 0;
+    let mut before: Option<&[f64]> = None;
+    let each = found.measurements.iter().map(|m| {
+        if before != Some(&m.shown) {
+            number += 1;
+        }
+        before = Some(&m.shown);
+        number
+    });
+    each.collect()
 }
 
 /// The loads that can be put on.
@@ -248,9 +272,8 @@ fn loads(args: &PlanMeasurementArgs, model: &Model) -> Answer<Vec<TestLoad>> {
         forces.push(down * mass);
     }
     if let Some(pull) = args.pull_n {
-        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
         let directions: Vec<Vector3<f64>> = match args.pull_direction.is_empty() {
-            true => axes.iter().flat_map(|a| [*a, -*a]).collect(),
+            true => vec![Vector3::x(), Vector3::y(), -Vector3::z()],
             false => args
                 .pull_direction
                 .chunks(3)
@@ -291,7 +314,7 @@ fn purpose(args: &PlanMeasurementArgs, model: &Model) -> Answer<Purpose> {
     let test = args.work.iter().enumerate().map(|(i, words)| {
         Ok(Observation {
             posture: format!("work {}", i + 1),
-            commands: commands(words, &axes)?,
+            commands: commands(words, &axes, model)?,
             load,
             branch: None,
             readings: Reading::displacement(Vector3::zeros(), &Vector3::zeros(), 1.0).into(),
@@ -300,9 +323,10 @@ fn purpose(args: &PlanMeasurementArgs, model: &Model) -> Answer<Purpose> {
     Ok(Purpose::Compensation(test.collect::<Answer<_>>()?))
 }
 
-/// `A1=10,A2=-90`: degrees and millimetres; what is not named is zero.
-fn commands(words: &str, axes: &Axes<'_>) -> Answer<Vec<f64>> {
-    let mut shown = vec![0.0; axes.names().len()];
+/// `A1=10,A2=-90`: degrees and millimetres; what is not named stays at home.
+fn commands(words: &str, axes: &Axes<'_>, model: &Model) -> Answer<Vec<f64>> {
+    let home = joints::home(&model.mechanism);
+    let mut shown = axes.shown(&home).unwrap_or_default();
     for part in words.split(',') {
         let refuse = |why: &str| {
             let names: Vec<&str> = axes.names().iter().map(|n| n.0.as_str()).collect();
@@ -325,8 +349,15 @@ fn commands(words: &str, axes: &Axes<'_>) -> Answer<Vec<f64>> {
             .ok_or_else(|| refuse("there is no such axis"))?;
         shown[at] = value * size(axes.names()[at].1).1;
     }
-    axes.commands(&shown)
-        .ok_or_else(|| ErrorCode::Value.failure("--work: the axes do not fit the model"))
+    let commands = axes.commands(&shown);
+    let commands = commands
+        .ok_or_else(|| ErrorCode::Value.failure("--work: the axes do not fit the model"))?;
+    match axes.beyond_limits(&commands).into_iter().next() {
+        Some(beyond) => {
+            Err(ErrorCode::OutsideLimits.failure(format!("--work '{words}': {beyond}")))
+        }
+        None => Ok(commands),
+    }
 }
 
 /// Unit in which an axis is shown, and its size in SI.
@@ -339,8 +370,9 @@ fn size(kind: MotionKind) -> (&'static str, f64) {
 
 fn answer_of(args: &PlanMeasurementArgs, task: &PlanTask<'_>, found: &Plan) -> PlanAnswer {
     let axes = Axes::of(task.model);
+    let numbers_of_postures = postures(found);
     let row = |(i, m): (usize, &PlannedMeasurement)| PlanRow {
-        posture: (i + 1).to_string(),
+        posture: numbers_of_postures[i].to_string(),
         axes: axes
             .names()
             .iter()
@@ -425,13 +457,14 @@ fn table(task: &PlanTask<'_>, found: &Plan) -> Answer<Vec<u8>> {
         head.push(name.to_owned());
     }
     let mut rows = vec![head];
-    for (i, m) in found.measurements.iter().enumerate() {
+    for (posture, m) in postures(found).into_iter().zip(&found.measurements) {
         for marker in &task.markers {
-            let mut row = vec![(i + 1).to_string()];
+            let mut row = vec![posture.to_string()];
             // A thousandth of a degree or of a millimetre is what a controller takes.
             let shown = axes.names().iter().zip(&m.shown);
             row.extend(shown.map(|((_, kind), x)| format!("{:.3}", x / size(*kind).1)));
-            row.extend(m.load.force.iter().map(|f| cell(*f)));
+            // Zero has no sign.
+            row.extend(m.load.force.iter().map(|f| cell(*f + 0.0)));
             row.extend(
                 (m.load.at * 1e3)
                     .iter()

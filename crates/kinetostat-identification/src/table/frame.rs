@@ -84,7 +84,7 @@ pub fn into_base(
     let [first, second, ..] = found.values[..] else {
         return Err(NoFrame::TooFew { places });
     };
-    if places < 3 || second <= 1e-6 * first || first == 0.0 {
+    if places < 3 || second <= 3e-3 * first || first == 0.0 {
         return Err(NoFrame::TooFew { places });
     }
     let (left, right) = (

@@ -17,13 +17,58 @@ pub use frame::{InstrumentFrame, NoFrame, into_base};
 pub use read::read_table;
 pub use row::{DEVIATION, MOST_FAULTS, MeasuredRow, Read, TURN_DEVIATION, TableFault};
 
-/// The largest load in the posture of a row at the same point.
-fn whole_load(rows: &[MeasuredRow], of: &MeasuredRow, gravity: &Vector3<f64>) -> Option<TestLoad> {
-    let same = rows
+/// The largest load of the loop that a row belongs to: in its posture, at its point and along its force, or, behind the loop, along the
+/// force of the row before.
+fn whole_load(rows: &[MeasuredRow], at: usize, gravity: &Vector3<f64>) -> Option<TestLoad> {
+    let of = &rows[at];
+    let is_beside = |row: &&MeasuredRow| {
+        row.posture == of.posture && row.is_loaded() && row.load.at == of.load.at
+    };
+    let last = rows[..=at].iter().rev().find(is_beside)?;
+    let direction = last.load_under(gravity).force.normalize();
+    let loads = rows
         .iter()
-        .filter(|row| row.posture == of.posture && row.is_loaded() && row.load.at == of.load.at);
-    let loads = same.map(|row| row.load_under(gravity));
-    loads.max_by(|a, b| a.force.norm().total_cmp(&b.force.norm()))
+        .filter(is_beside)
+        .map(|row| row.load_under(gravity));
+    let same = loads.filter(|load| load.force.normalize().dot(&direction) > SAME_WAY);
+    same.max_by(|a, b| a.force.norm().total_cmp(&b.force.norm()))
+}
+
+/// Cosine of the angle between forces of one loop, at least.
+const SAME_WAY: f64 = 0.99;
+/// Difference of axes within a posture, m or rad: what a controller shows of one that stands still.
+const SAME_AXES: f64 = 2e-6;
+
+/// Faults of rows that cannot stand beside each other: one name for several postures, masses without gravity.
+fn contradictions(rows: &[MeasuredRow], gravity: &Vector3<f64>) -> Vec<TableFault> {
+    let mut faults = Vec::new();
+    let mut first: std::collections::BTreeMap<&str, &MeasuredRow> =
+        std::collections::BTreeMap::new();
+    for row in rows {
+        let fault = |column: Option<&str>, message: String| TableFault {
+            line: row.line,
+            column: column.map(str::to_owned),
+            found: None,
+            message,
+        };
+        let before = first.entry(&row.posture).or_insert(row);
+        let apart = row
+            .shown
+            .iter()
+            .zip(&before.shown)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max);
+        if apart > SAME_AXES {
+            faults.push(fault(None, format!(
+                "posture '{}' has other axes here than in line {}: give it another name, or, if the machine stood still, the same axes",
+                row.posture, before.line
+            )));
+        }
+        if row.mass > 0.0 && *gravity == Vector3::zeros() {
+            faults.push(fault(Some("mass_kg"), "the model has no gravity, so that a mass pulls nowhere: write fz_n, or gravity_m_per_s2 in the model".to_owned()));
+        }
+    }
+    faults
 }
 
 /// Observations from rows: displacements as they are, and positions under a load less the mean of those of the same marker in the
@@ -35,9 +80,13 @@ pub fn observations(
     rows: &[MeasuredRow],
     gravity: &Vector3<f64>,
 ) -> Result<Vec<Observation>, Vec<TableFault>> {
-    let mut faults = Vec::new();
+    let mut faults = contradictions(rows, gravity);
     let mut found = Vec::new();
-    for row in rows {
+    for (at, row) in rows.iter().enumerate() {
+        // Rows of a plan that were not measured yet.
+        if row.read == Read::default() {
+            continue;
+        }
         let fault = |message: &str| TableFault {
             line: row.line,
             column: None,
@@ -98,7 +147,7 @@ pub fn observations(
             branch: row.unloading.and_then(|unloading| {
                 Some(Branch {
                     unloading,
-                    whole: whole_load(rows, row, gravity)?,
+                    whole: whole_load(rows, at, gravity)?,
                 })
             }),
             readings,
@@ -109,7 +158,8 @@ pub fn observations(
             line: 1,
             column: None,
             found: None,
-            message: "no row has a load: nothing shows how stiff the machine is".to_owned(),
+            message: "no row has a load and a reading: nothing shows how stiff the machine is"
+                .to_owned(),
         });
     }
     match faults.is_empty() {

@@ -11,7 +11,7 @@ use crate::table::row::{MOST_FAULTS, MeasuredRow, Read, TableFault};
 ///
 /// # Errors
 /// All faults, in the order of the file: columns that are unknown, missing, twice or without a unit; cells that are no numbers; rows of
-/// another length; axes beyond their limits.
+/// another length; axes beyond their limits. Rows without a reading are no fault: a plan is filled in row by row.
 pub fn read_table(text: &str, axes: &Axes<'_>) -> Result<Vec<MeasuredRow>, Vec<TableFault>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let is_row = |l: &&str| !l.trim().is_empty() && !l.trim_start().starts_with('#');
@@ -336,8 +336,6 @@ impl Row<'_> {
                 None
             }
         };
-        let vectors = [displacement, position, turn];
-        let was_begun = gauge.is_some() || vectors.iter().flatten().any(Option::is_some);
         let read = Read {
             displacement: vector(displacement, "dx, dy and dz"),
             position: vector(position, "x, y and z"),
@@ -354,9 +352,6 @@ impl Row<'_> {
             }),
             ..read
         };
-        if read == Read::default() && !was_begun {
-            fault("nothing was read in this row".to_owned());
-        }
         let commands = axes.commands(&shown)?;
         for message in axes.beyond_limits(&commands) {
             fault(message);

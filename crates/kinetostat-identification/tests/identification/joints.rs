@@ -2,8 +2,9 @@
 
 use kinetostat::{Mechanism, Pose, PostureRequest};
 use kinetostat_identification::{
-    Branch, Finding, Fit, FitOptions, Knowledge, Observation, Reading, ReadingOf, Start, TestLoad,
-    Theory, Unknowns, identification, identified_model, identify, predict,
+    Axes, Branch, Finding, Fit, FitOptions, Knowledge, Observation, Reading, ReadingOf, Start,
+    TestLoad, Theory, Unknowns, identification, identified_model, identify, observations, predict,
+    read_table,
 };
 use kinetostat_model::Model;
 use nalgebra::{Vector3, vector};
@@ -272,7 +273,7 @@ fn what_a_posture_shares_widens_the_deviation() -> Outcome {
     assert!(worst(&[20e-6 * found.linear.sigma_factor()], &[1.935889340e-5]) < 1e-6);
     let covariance = found
         .linear
-        .covariance_by_postures(&found.postures)
+        .covariance_by_postures(&found.postures, None)
         .ok_or_else(|| anyhow::anyhow!("one posture"))?;
     let std: Vec<f64> = covariance.diagonal().iter().map(|v| v.sqrt()).collect();
     let wanted = [
@@ -668,5 +669,66 @@ fn units_and_signs_that_cannot_be_are_asked_about() -> Outcome {
             .any(|f| matches!(f, Finding::Scale { .. }));
         assert_eq!(is_asked, asked, "{factor}: {:?}", found.findings);
     }
+    Ok(())
+}
+
+#[test]
+fn a_weight_and_a_pull_in_one_posture_have_loops_of_their_own() -> Outcome {
+    let model = h6(false);
+    let axes = Axes::of(&model);
+    let arm = crate::regressors::Arm::h6();
+    let mut random = Random::new(62);
+    let friction = [40e-6, 60e-6, 50e-6, 90e-6, 80e-6, 70e-6];
+    let mut text = "posture,A1_rad,A2_rad,A3_rad,A4_rad,A5_rad,A6_rad,fx_n,fy_n,fz_n,load_x_m,load_y_m,load_z_m,marker_x_m,marker_y_m,marker_z_m,dx_m,dy_m,dz_m,branch\n".to_owned();
+    for i in 0..10 {
+        let q = angles(&mut random);
+        let posture = arm.at(&q);
+        let jacobian = posture.jacobian(posture.point(TOOL));
+        let cells: Vec<String> = q.iter().map(ToString::to_string).collect();
+        for force in [vector![0.0, 0.0, -2500.0], vector![900.0, 700.0, 0.0]] {
+            let torques: Vec<f64> = jacobian
+                .column_iter()
+                .map(|j| j.fixed_rows::<3>(0).dot(&force))
+                .collect();
+            for (fraction, unloading) in [(0.5, false), (1.0, false), (0.5, true), (0.0, true)] {
+                let sign = if unloading { -1.0 } else { 1.0 };
+                let turns = (0..6).map(|j| {
+                    let stuck = if torques[j].abs() > 1e-6 {
+                        friction[j] * sign * torques[j].signum()
+                    } else {
+                        0.0
+                    };
+                    H6[j] * torques[j] * fraction - stuck
+                });
+                let moved = &jacobian * nalgebra::DVector::from_iterator(6, turns);
+                let f = force * fraction;
+                text += &format!(
+                    "{i},{},{},{},{},0.25,0.1,-0.05,0.25,0.1,-0.05,{},{},{},{}\n",
+                    cells.join(","),
+                    f.x,
+                    f.y,
+                    f.z,
+                    moved[0],
+                    moved[1],
+                    moved[2],
+                    if unloading { "unloading" } else { "loading" }
+                );
+            }
+        }
+    }
+    let rows = read_table(&text, &axes).map_err(|f| anyhow::anyhow!("{f:?}"))?;
+    let found = observations(&rows, &Vector3::zeros()).map_err(|f| anyhow::anyhow!("{f:?}"))?;
+    let unknowns = Unknowns::matching(&model, &["joints"])?.with_friction(&model);
+    let options = FitOptions {
+        theory: Theory::SmallLoads,
+        robust: false,
+        prior: None,
+    };
+    let estimate = identify(&unknowns, &found, &options)?.linear.estimate;
+    assert!(worst(&estimate.as_slice()[..6], &H6) < 1e-6, "{estimate}");
+    assert!(
+        worst(&estimate.as_slice()[6..], &friction) < 1e-6,
+        "{estimate}"
+    );
     Ok(())
 }

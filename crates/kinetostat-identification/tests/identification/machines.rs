@@ -279,6 +279,14 @@ fn a_prior_keeps_what_readings_do_not_tell() -> Outcome {
     assert!((with.linear.estimate[0] / H6[0] - 1.0).abs() < 1e-9);
     assert!((deviations[0] / (0.2 * H6[0]) - 1.0).abs() < 1e-6);
     assert!(deviations[1] < 0.05 * H6[1]);
+    // What is stated is what was believed, also by postures.
+    let options = FitOptions {
+        prior: Some(0.2),
+        ..SMALL
+    };
+    let found = kinetostat_identification::identification(&unknowns, &observations, &options)?;
+    let percent = found.numbers[0].deviation_percent.unwrap_or(f64::NAN);
+    assert!((percent - 20.0).abs() < 0.1, "{percent} %");
     Ok(())
 }
 

@@ -218,3 +218,37 @@ fn an_instrument_may_stand_anywhere() -> Outcome {
     ));
     Ok(())
 }
+
+#[test]
+fn rows_that_contradict_each_other_are_named() {
+    let head = format!("posture,{AXES},fz_n,mass_kg,x_mm,y_mm,z_mm\n");
+    let apart = faults(&format!(
+        "{head}a,0,0,0,0,0,0,0,0,1,2,3\na,0,0.02,0,0,0,0,-100,0,1,2,3\n"
+    ));
+    assert_eq!((apart.len(), apart[0].line), (1, 3), "{apart:?}");
+    let model = h6(false);
+    let text = format!("{head}a,0,0,0,0,0,0,0,0,1,2,3\na,0,0,0,0,0,0,0,30,1,2,3\n");
+    let rows = read_table(&text, &Axes::of(&model)).unwrap_or_default();
+    let none = observations(&rows, &Vector3::zeros())
+        .err()
+        .unwrap_or_default();
+    assert_eq!(
+        none.first().and_then(|f| f.column.as_deref()),
+        Some("mass_kg"),
+        "{none:?}"
+    );
+}
+
+#[test]
+fn rows_of_a_plan_are_filled_in_one_by_one() {
+    let head = format!("posture,{AXES},fz_n,dx_mm,dy_mm,dz_mm\n");
+    let model = h6(false);
+    let text = format!("{head}1,0,0,0,0,0,0,-100,1,2,3\n2,9,0,0,0,0,0,-100,,,\n");
+    let rows = read_table(&text, &Axes::of(&model)).unwrap_or_default();
+    assert_eq!(
+        observations(&rows, &GRAVITY).map(|found| found.len()),
+        Ok(1)
+    );
+    let empty = faults(&format!("{head}1,0,0,0,0,0,0,-100,,,\n"));
+    assert_eq!(empty.len(), 1, "{empty:?}");
+}
