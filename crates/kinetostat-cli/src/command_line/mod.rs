@@ -327,6 +327,7 @@ mod tests {
             "tool-diameter-mm",
             "tool-orientation",
             "viscous",
+            "work",
             "work-offset",
         ];
         assert_eq!(found, known.map(String::from).into());

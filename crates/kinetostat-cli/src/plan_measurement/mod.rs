@@ -57,10 +57,10 @@ pub(crate) struct PlanMeasurementArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) count: Option<usize>,
     /// Mass that hangs on the tool, kg
-    #[arg(long, value_name = "KG", value_parser = number, help_heading = "Loads")]
+    #[arg(long, value_name = "KG", allow_negative_numbers = true, value_parser = number, help_heading = "Loads")]
     pub(crate) mass_kg: Option<f64>,
     /// Force of a string or cylinder, N, which pulls along x, along y and down
-    #[arg(long, value_name = "N", value_parser = number, help_heading = "Loads")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number, help_heading = "Loads")]
     pub(crate) pull_n: Option<f64>,
     /// Direction in which it may pull, base axes; once for each, instead of these three
     #[arg(long, num_args = 3, action = clap::ArgAction::Append, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, value_parser = number, requires = "pull_n", help_heading = "Loads")]
@@ -260,6 +260,13 @@ fn loads(args: &PlanMeasurementArgs, model: &Model) -> Answer<Vec<TestLoad>> {
         Some(at) => vector("--load-at", at)? * 1e-3,
         None => Vector3::zeros(),
     };
+    for (option, load) in [("--mass-kg", args.mass_kg), ("--pull-n", args.pull_n)] {
+        if let Some(load) = load.filter(|load| *load <= 0.0) {
+            return Err(
+                ErrorCode::Value.failure(format!("{option} is {load}; a load above 0 is needed"))
+            );
+        }
+    }
     let mut forces = Vec::new();
     if let Some(mass) = args.mass_kg {
         let own = model.mechanism.gravity();
@@ -338,10 +345,9 @@ fn commands(words: &str, axes: &Axes<'_>, model: &Model) -> Answer<Vec<f64>> {
         let (name, value) = part
             .split_once('=')
             .ok_or_else(|| refuse("there is no ="))?;
-        let value: f64 = value
-            .trim()
-            .parse()
-            .map_err(|_| refuse("this is no number"))?;
+        let value: Option<f64> = value.trim().parse().ok();
+        let value = value.filter(|v| v.is_finite());
+        let value = value.ok_or_else(|| refuse("this is no number"))?;
         let at = axes
             .names()
             .iter()

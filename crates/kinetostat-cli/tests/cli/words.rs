@@ -495,6 +495,10 @@ fn numbers_inside_texts_are_refused_with_their_option() {
                 "--section",
             ),
             ("modes heavy_6r --viscous axis=@", "--viscous"),
+            (
+                "plan-measurement heavy_6r --pull-n 1000 --force 1 0 0 --work J1=@",
+                "--work",
+            ),
             ("stiffness model.toml --joints shoulder=@", "--joints"),
             ("stiffness shown.toml --controller J1=@", "--controller"),
             (
@@ -510,7 +514,7 @@ fn numbers_inside_texts_are_refused_with_their_option() {
             count += 1;
         }
     }
-    assert_eq!(count, 90);
+    assert_eq!(count, 96);
 }
 
 /// One of something is reported as one, in summaries, reports and warnings.
