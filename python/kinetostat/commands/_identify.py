@@ -83,15 +83,15 @@ def identify(
     Examples
     --------
     >>> import tempfile
+    >>> from pathlib import Path
     >>> import kinetostat as ks
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     table = folder + "/pulls.csv"
+    ...     table = Path(folder, "pulls.csv")
     ...     plan = ks.commands.plan_measurement("kuka_kr270_like", pull_n=1000, count=6, candidates=30, csv=table)
-    ...     text = open(table).read().replace(",,,,", ",0.1,0.2,0.3,")
-    ...     _ = open(table, "w").write(text)
+    ...     _ = table.write_text(table.read_text().replace(",,,,", ",0.1,0.2,0.3,"))
     ...     found = ks.commands.identify("kuka_kr270_like", measured=table)
-    >>> found["readings"], len(found["numbers"]), found["rank"]
-    (18, 6, 6)
+    >>> found["readings"], len(found["numbers"])
+    (18, 6)
     """
     options: list[tuple[str, Any]] = [
         ("model", model),
