@@ -3,7 +3,7 @@
 use kinetostat::Mechanism;
 use nalgebra::{DMatrix, DVector, Matrix6};
 
-use crate::compliance_matrix::{entries, inverse, matrix_of};
+use crate::compliance_matrix::{entries, entry_size, index_of, inverse, matrix_of};
 use crate::error::IdentificationError;
 use crate::springs::{SpringChange, difference, scaled};
 use crate::unknown::{Form, Unknown, Unknowns};
@@ -69,8 +69,8 @@ impl Unknowns {
             // The springs are linear in the number, so that a large step is exact.
             let step = match unknown.form {
                 Form::Compliance => 0.25 * own[i],
-                Form::MatrixEntry(..) => {
-                    1e-3 * stiffness_size(&self.list, i) / unknown.parameter.in_si
+                Form::MatrixEntry(row, column) => {
+                    1e-3 * stiffness_size(&self.list, i, row, column) / unknown.parameter.in_si
                 }
                 Form::Parallel => 0.5 * own[i],
                 Form::Value | Form::Friction => 1e-2 * unknown.size / unknown.parameter.in_si,
@@ -109,7 +109,7 @@ impl Unknowns {
             match unknown.form {
                 Form::Compliance => slopes[(i, i)] = -values[i].powi(-2) / in_si,
                 Form::MatrixEntry(row, column) => {
-                    let first = i - entries().position(|e| e == (row, column)).unwrap_or(0);
+                    let first = i - index_of(row, column);
                     let change =
                         stiffness_change(&values.rows(first, 21).into_owned(), row, column);
                     for (k, entry) in entries().enumerate() {
@@ -138,7 +138,7 @@ impl Unknowns {
                     step: step / factor,
                 },
                 (Form::MatrixEntry(row, column), _) => {
-                    let first = i - entries().position(|e| e == (row, column)).unwrap_or(0);
+                    let first = i - index_of(row, column);
                     let upper = values.rows(first, 21).into_owned();
                     Change::Springs(of_entry(&upper, row, column, &by_number[first..first + 21]))
                 }
@@ -149,15 +149,11 @@ impl Unknowns {
     }
 }
 
-/// Size of an entry of a stiffness matrix, SI: the mean of its diagonal ones.
-fn stiffness_size(list: &[Unknown], at: usize) -> f64 {
-    let Form::MatrixEntry(row, column) = list[at].form else {
-        return 1.0;
-    };
-    let first = at - entries().position(|e| e == (row, column)).unwrap_or(0);
-    let diagonal = |k: usize| {
-        let own = first + entries().position(|e| e == (k, k)).unwrap_or(0);
-        (list[own].parameter.value * list[own].parameter.in_si).abs()
-    };
-    (diagonal(row) * diagonal(column)).sqrt()
+/// Size of an entry of a stiffness matrix in the model, SI.
+fn stiffness_size(list: &[Unknown], at: usize, row: usize, column: usize) -> f64 {
+    let first = at - index_of(row, column);
+    entry_size(row, column, |k| {
+        let own = &list[first + index_of(k, k)].parameter;
+        (own.value * own.in_si).abs()
+    })
 }

@@ -16,6 +16,7 @@
 //! below what the rows have, and along what they do not see nothing contradicts it.
 
 use kinetostat::linalg::SingularValues;
+use kinetostat::number::larger;
 use nalgebra::{DMatrix, DVector};
 
 /// Relative singular value below which the readings do not see a combination of unknowns: far above rounding, far below the least
@@ -372,7 +373,7 @@ impl Scaled<'_> {
         let stiffest = columns
             .iter()
             .map(|c| self.curvature[(*c, *c)] + self.drawn[(*c, *c)])
-            .fold(0.0, f64::max);
+            .fold(0.0, larger);
         let eigenvalues = constraint.matrix(at).symmetric_eigenvalues();
         eigenvalues
             .iter()

@@ -6,7 +6,7 @@ use nalgebra::DVector;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::experiment::{Observation, ReadingOf};
+use crate::experiment::{Observation, Reading, ReadingOf, by_posture};
 use crate::fit::Fit;
 use crate::identifiability::Knowledge;
 use crate::identified::{IdentifiedNumber, PostureResiduals};
@@ -205,8 +205,8 @@ const NOTICEABLE: f64 = 25.0;
 /// Pairs of markers under one load whose displacements seem to be exchanged.
 pub(crate) fn exchanged_markers(fit: &Fit, observations: &[Observation]) -> Vec<Finding> {
     let mut found = Vec::new();
-    for (name, residuals) in fit.names.iter().zip(&fit.linear.residuals) {
-        let own: Vec<&Observation> = observations.iter().filter(|o| o.posture == *name).collect();
+    for ((name, members), residuals) in by_posture(observations).iter().zip(&fit.linear.residuals) {
+        let own: Vec<&Observation> = members.iter().map(|m| &observations[*m]).collect();
         // Where the rows of each observation begin.
         let mut starts = vec![0];
         for observation in &own {
@@ -228,7 +228,7 @@ pub(crate) fn exchanged_markers(fit: &Fit, observations: &[Observation]) -> Vec<
                     continue;
                 }
                 let between = DVector::from_fn(3, |k, _| q[k].value - p[k].value);
-                let swapped = |r: &DVector<f64>, sign: f64, own: &[crate::experiment::Reading]| {
+                let swapped = |r: &DVector<f64>, sign: f64, own: &[Reading]| {
                     (0..3)
                         .map(|k| (r[k] + sign * between[k] / own[k].deviation).powi(2))
                         .sum::<f64>()
@@ -236,9 +236,9 @@ pub(crate) fn exchanged_markers(fit: &Fit, observations: &[Observation]) -> Vec<
                 let before = a.norm_squared() + b.norm_squared();
                 let after = swapped(&a, 1.0, p) + swapped(&b, -1.0, q);
                 if before > 6.0 * NOTICEABLE && after < EXCHANGED * before {
-                    let mm = |r: &crate::experiment::Reading| (r.marker * 1e3).into();
+                    let mm = |r: &Reading| (r.marker * 1e3).into();
                     found.push(Finding::Exchanged {
-                        posture: name.clone(),
+                        posture: (*name).to_owned(),
                         markers_mm: [mm(&p[0]), mm(&q[0])],
                     });
                 }

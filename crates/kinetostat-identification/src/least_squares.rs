@@ -12,6 +12,7 @@
 //! `e_g = (I - A_g P A_g^T)^-1 r_g`.
 
 use kinetostat::linalg::SingularValues;
+use kinetostat::number::larger;
 use nalgebra::{DMatrix, DVector};
 
 use crate::cone::{ConstrainedRows, Constraint, NotSolved, UNSEEN};
@@ -41,8 +42,6 @@ pub struct LinearFit {
     pub residuals: Vec<DVector<f64>>,
     /// Weights of the rows, 1 without outliers.
     pub weights: Vec<DVector<f64>>,
-    /// Number of readings.
-    pub readings: usize,
     /// Unknowns at zero, their bound, and first unknowns of matrices with a load that does not deflect them.
     pub at_bound: Vec<usize>,
 }
@@ -219,7 +218,6 @@ fn weighted(
             .map(|p| &p.values - &p.rows * &estimate)
             .collect(),
         weights: weights.to_vec(),
-        readings: postures.iter().map(|p| p.values.len()).sum(),
         at_bound,
         estimate,
     })
@@ -230,7 +228,7 @@ fn pseudo_inverse(matrix: &DMatrix<f64>) -> (DMatrix<f64>, usize) {
     let (rows, columns) = matrix.shape();
     // Columns of very different length (a stiff and a soft spring) are no sign of an unseen one.
     let lengths: Vec<f64> = matrix.column_iter().map(|c| c.norm()).collect();
-    let longest = lengths.iter().copied().fold(0.0, f64::max);
+    let longest = lengths.iter().copied().fold(0.0, larger);
     let unit = |j: usize| match lengths[j] > 1e-12 * longest {
         true => 1.0 / lengths[j],
         false => 0.0,
@@ -252,10 +250,11 @@ impl LinearFit {
         each.map(|(r, w)| r.component_mul(r).dot(w)).sum()
     }
 
-    /// Readings less the combinations of unknowns that they see.
+    /// Rows less the combinations of unknowns that they see.
     #[must_use]
     pub fn degrees_of_freedom(&self) -> usize {
-        self.readings.saturating_sub(self.rank)
+        let rows: usize = self.residuals.iter().map(|r| r.len()).sum();
+        rows.saturating_sub(self.rank)
     }
 
     /// Estimate of the factor by which the stated standard deviations are too small: `sqrt(chi^2 / (N - p))`. 1 where nothing is

@@ -4,9 +4,10 @@
 //! over. Of the rest, with each of the loads, the set is chosen whose readings leave the least error after compensation at the test
 //! poses, or the least uncertainty of the numbers ([`crate::design`]). How good it is is told against the best that any set could be.
 
+use kinetostat::number::{larger, smaller};
 use kinetostat::{Mechanism, Posture, PostureRequest, Wrench};
 use kinetostat_model::Model;
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{DMatrix, DVector, Vector3};
 use sobol_burley::sample;
 
 use crate::axes::Axes;
@@ -85,9 +86,9 @@ pub struct PlannedMeasurement {
 pub struct Plan {
     /// The measurements, in an order in which neighbours are near.
     pub measurements: Vec<PlannedMeasurement>,
-    /// Postures that were chosen from, and how many were passed over because they cannot be taken, or not be seen.
+    /// Postures that were chosen from.
     pub candidates: usize,
-    /// Postures that were passed over.
+    /// Postures that were passed over, because they cannot be taken, or not be seen.
     pub passed_over: usize,
     /// Value of the criterion over the best that any set of as many measurements could have, at most 1; none for the worst direction.
     pub efficiency: Option<f64>,
@@ -105,7 +106,6 @@ const TRIALS: usize = 40;
 const RANDOM_SETS: usize = 21;
 /// Distance that a line of sight keeps from the machine, m.
 const CLEARANCE: f64 = 0.15;
-
 /// Length before the marker in which the line of sight is not judged: the hand, m.
 const HAND: f64 = 0.5;
 
@@ -117,23 +117,7 @@ pub fn plan(task: &PlanTask<'_>) -> Result<Plan, PlanError> {
     let mechanism = &task.model.mechanism;
     let axes = Axes::of(task.model);
     let (postures, passed_over) = drawn(task, mechanism)?;
-    let observations: Vec<Observation> = postures
-        .iter()
-        .enumerate()
-        .flat_map(|(i, commands)| {
-            task.loads.iter().map(move |load| Observation {
-                posture: i.to_string(),
-                commands: commands.clone(),
-                load: *load,
-                branch: None,
-                readings: task
-                    .markers
-                    .iter()
-                    .flat_map(|m| Reading::displacement(*m, &Vector3::zeros(), task.deviation))
-                    .collect(),
-            })
-        })
-        .collect();
+    let observations = task.observations(&postures);
     let sizes = task.unknowns.sizes();
     let nominal = task.unknowns.nominal();
     // A load under which the machine has no equilibrium is none to choose.
@@ -162,24 +146,12 @@ pub fn plan(task: &PlanTask<'_>) -> Result<Plan, PlanError> {
     let criterion = match &task.purpose {
         Purpose::Compensation(test) => {
             let predictions = predict(task.unknowns, &nominal, test, task.theory)?;
-            let count = predictions.len() as f64;
             let each = predictions
                 .iter()
                 .map(|p| scaled(p, 1.0).select_columns(&shown));
-            let each = each.map(|a| a.tr_mul(&a) / count);
-            let sum = each
-                .reduce(|a, b| a + b)
-                .ok_or(IdentificationError::NoReadings)?;
-            Criterion::TestPoses(sum)
+            mean_information(each).ok_or(IdentificationError::NoReadings)?
         }
-        // Variances of the numbers that can be known, not of the parts of a combination.
-        Purpose::Average if seen_alone.contains(&false) => {
-            let weights = seen_alone.iter().map(|seen| f64::from(u8::from(*seen)));
-            let weights: Vec<f64> = weights.collect();
-            Criterion::TestPoses(DMatrix::from_diagonal(&nalgebra::DVector::from_vec(
-                weights,
-            )))
-        }
+        Purpose::Average if seen_alone.contains(&false) => of_seen(&seen_alone),
         Purpose::Average => Criterion::Average,
         Purpose::Determinant => Criterion::Determinant,
         Purpose::WorstDirection => Criterion::WorstDirection,
@@ -207,28 +179,9 @@ pub fn plan(task: &PlanTask<'_>) -> Result<Plan, PlanError> {
     {
         deviations[shown[k]] = Some(variance.max(0.0).sqrt());
     }
-    let mut measurements: Vec<PlannedMeasurement> = found
-        .postures
-        .iter()
-        .map(|i| {
-            let observation = &observations[*i];
-            let position = mechanism.posture(PostureRequest::commands(&observation.commands));
-            PlannedMeasurement {
-                shown: axes.shown(&observation.commands).unwrap_or_default(),
-                position: position.map_or_else(
-                    |_| Vector3::repeat(f64::NAN),
-                    |p| p.target().translation.vector,
-                ),
-                load: observation.load,
-                expected: predictions[*i]
-                    .values
-                    .as_slice()
-                    .chunks(3)
-                    .map(|d| (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt())
-                    .fold(0.0, f64::max),
-            }
-        })
-        .collect();
+    let chosen = found.postures.iter();
+    let chosen = chosen.map(|i| task.planned(&axes, &observations[*i], &predictions[*i]));
+    let mut measurements: Vec<PlannedMeasurement> = chosen.collect();
     in_short_ways(&mut measurements);
     Ok(Plan {
         measurements,
@@ -315,7 +268,60 @@ fn drawn(task: &PlanTask<'_>, mechanism: &Mechanism) -> Result<(Vec<Vec<f64>>, u
     }
 }
 
+/// The criterion of test poses with these rows.
+fn mean_information(rows: impl ExactSizeIterator<Item = DMatrix<f64>>) -> Option<Criterion> {
+    let count = rows.len() as f64;
+    let each = rows.map(|a| a.tr_mul(&a) / count);
+    each.reduce(|a, b| a + b).map(Criterion::TestPoses)
+}
+
+/// Variances of the numbers that can be known, not of the parts of a combination.
+fn of_seen(seen_alone: &[bool]) -> Criterion {
+    let weights = seen_alone.iter().map(|seen| f64::from(u8::from(*seen)));
+    let weights = DVector::from_iterator(seen_alone.len(), weights);
+    Criterion::TestPoses(DMatrix::from_diagonal(&weights))
+}
+
 impl PlanTask<'_> {
+    /// Each posture under each load, with all markers.
+    fn observations(&self, postures: &[Vec<f64>]) -> Vec<Observation> {
+        let reading =
+            |m: &Vector3<f64>| Reading::displacement(*m, &Vector3::zeros(), self.deviation);
+        let readings: Vec<Reading> = self.markers.iter().flat_map(reading).collect();
+        let each = postures.iter().enumerate().flat_map(|(i, commands)| {
+            let readings = &readings;
+            self.loads.iter().map(move |load| Observation {
+                posture: i.to_string(),
+                commands: commands.clone(),
+                load: *load,
+                branch: None,
+                readings: readings.clone(),
+            })
+        });
+        each.collect()
+    }
+
+    fn planned(
+        &self,
+        axes: &Axes<'_>,
+        observation: &Observation,
+        prediction: &Prediction,
+    ) -> PlannedMeasurement {
+        let request = PostureRequest::commands(&observation.commands);
+        let position = self.model.mechanism.posture(request);
+        let displacements = prediction.values.as_slice().chunks(3);
+        let sizes = displacements.map(|d| Vector3::from_column_slice(d).norm());
+        PlannedMeasurement {
+            shown: axes.shown(&observation.commands).unwrap_or_default(),
+            position: position.map_or_else(
+                |_| Vector3::repeat(f64::NAN),
+                |p| p.target().translation.vector,
+            ),
+            load: observation.load,
+            expected: sizes.fold(0.0, larger),
+        }
+    }
+
     /// True if the tool is in the room and every marker is seen.
     fn is_possible(&self, posture: &Posture) -> bool {
         let tool = posture.target();
@@ -376,14 +382,14 @@ fn distance(a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>, d: &Vector3<f6
     } else {
         f64::INFINITY
     };
-    ends.into_iter().fold(between, f64::min)
+    ends.into_iter().fold(between, smaller)
 }
 
 /// Numbers on which a reading depends.
 fn shown(rows: &[DMatrix<f64>], unknowns: usize) -> Vec<usize> {
-    let largest = |j: usize| rows.iter().map(|a| a.column(j).amax()).fold(0.0, f64::max);
+    let largest = |j: usize| rows.iter().map(|a| a.column(j).amax()).fold(0.0, larger);
     let each: Vec<f64> = (0..unknowns).map(largest).collect();
-    let most = each.iter().copied().fold(0.0, f64::max);
+    let most = each.iter().copied().fold(0.0, larger);
     (0..unknowns).filter(|j| each[*j] > 1e-9 * most).collect()
 }
 
@@ -391,11 +397,11 @@ fn seen_alone(rows: &[DMatrix<f64>], unknowns: usize) -> Vec<bool> {
     let rows: Vec<PostureRows> = rows
         .iter()
         .map(|a| PostureRows {
-            values: nalgebra::DVector::zeros(a.nrows()),
+            values: DVector::zeros(a.nrows()),
             rows: a.clone(),
         })
         .collect();
-    Identifiability::of(&rows, &nalgebra::DVector::repeat(unknowns, 1.0)).seen_alone
+    Identifiability::of(&rows, &DVector::repeat(unknowns, 1.0)).seen_alone
 }
 
 /// Value of the median of random sets over that of the plan.

@@ -14,6 +14,7 @@
 //! is that of its equilibrium (implicit function theorem, [`kinetostat::machine::LinearisedMachine::removing`]).
 
 use kinetostat::machine::{MachineMotion, MachineResidual};
+use kinetostat::number::larger;
 use kinetostat::spatial::hat;
 use kinetostat::{Mechanism, MechanismEquilibrium, Pose, Posture, PostureRequest, Wrench};
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3, Vector6};
@@ -164,7 +165,7 @@ impl Machine<'_> {
             .iter()
             .map(|(_, at)| at.map_or(0.0, |at| torque(&whole, at)));
         let torques: Vec<f64> = torques.collect();
-        let largest = torques.iter().map(|t| t.abs()).fold(0.0, f64::max);
+        let largest = torques.iter().map(|t| t.abs()).fold(0.0, larger);
         // A load that does not turn a drive moves no friction.
         let signs = torques.iter().map(|t| {
             if t.abs() > NO_TORQUE * largest {

@@ -5,9 +5,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use crate::compliance_matrix::entries;
+use crate::compliance_matrix::{entry_size, index_of};
 use crate::error::IdentificationError;
-use crate::experiment::Observation;
+use crate::experiment::{Observation, Reading, ReadingOf, by_posture};
 use crate::findings::{Finding, exchanged_markers, findings, scale};
 use crate::fit::{Fit, FitOptions, identify};
 use crate::identifiability::{Identifiability, Knowledge};
@@ -71,35 +71,43 @@ pub fn identification(
     let slopes = unknowns.slopes_in_file(estimate);
     let in_units = &slopes * &covariance * slopes.transpose();
     let quantile = student_95(fit.names.len(), fit.linear.degrees_of_freedom());
-    let numbers: Vec<IdentifiedNumber> = unknowns
-        .list()
-        .iter()
-        .enumerate()
-        .map(|(i, unknown)| {
-            let known = knowledge[i];
-            let combination = (known == Knowledge::Unseen)
-                .then(|| combination_of(i, &seen, unknowns))
-                .flatten();
-            let value = in_file.get(i).copied().unwrap_or(estimate[i]);
-            let number = number_of(unknown, estimate[i], value, deviations[i], known, quantile);
-            let in_unit = in_units[(i, i)].max(0.0).sqrt();
-            let of_matrix = matrix_size(unknowns, i, &in_file).map(|size| in_unit / size);
-            let relative = of_matrix.unwrap_or(deviations[i] / sizes[i]);
-            // What no reading sees is as sure as it was believed to be.
-            let is_known = known != Knowledge::Unseen || fit.prior.is_some();
-            let at_bound = fit.linear.at_bound.contains(&i);
-            let is_zero = at_bound && !matches!(unknown.form, Form::MatrixEntry(..));
-            IdentifiedNumber {
-                at_bound,
-                known_combination: combination,
-                deviation_percent: Some(100.0 * relative)
-                    .filter(|x| is_known && !is_zero && x.is_finite()),
-                deviation: Some(in_unit).filter(|x| is_known && !is_zero && x.is_finite()),
-                interval: number.interval.filter(|_| !is_zero),
-                ..number
+    let number = |(i, unknown): (usize, &Unknown)| {
+        let value = in_file.get(i).copied().unwrap_or(estimate[i]);
+        let deviation = in_units[(i, i)].max(0.0).sqrt();
+        let relative = match unknown.form {
+            Form::MatrixEntry(row, column) => {
+                deviation / size_in_file(unknowns, i, row, column, &in_file)
             }
-        })
-        .collect();
+            _ => deviations[i] / sizes[i],
+        };
+        let is_seen = knowledge[i] != Knowledge::Unseen;
+        let is_entry = matches!(unknown.form, Form::MatrixEntry(..));
+        let at_bound = fit.linear.at_bound.contains(&i);
+        let is_zero = at_bound && !is_entry;
+        // What no reading sees is as sure as it was believed to be.
+        let is_known = (is_seen || fit.prior.is_some()) && !is_zero;
+        let of_known = |x: f64| Some(x).filter(|x| is_known && x.is_finite());
+        let is_possible = unknown.form != Form::Compliance || estimate[i] > 0.0;
+        IdentifiedNumber {
+            number: unknown.parameter.path.clone(),
+            unit: unknown.parameter.unit.to_owned(),
+            before: unknown.parameter.value,
+            identified: Some(value).filter(|x| x.is_finite() && is_possible),
+            deviation_percent: of_known(100.0 * relative),
+            deviation: of_known(deviation),
+            interval: (is_seen && !is_entry && !is_zero)
+                .then(|| interval(unknown, estimate[i], quantile * deviations[i])),
+            at_bound,
+            is_of_model: unknown.form != Form::Friction,
+            acts_beside_joints: unknown.form == Form::Parallel,
+            knowledge: knowledge[i],
+            known_combination: match is_seen {
+                true => None,
+                false => combination_of(i, &seen, unknowns),
+            },
+        }
+    };
+    let numbers: Vec<IdentifiedNumber> = unknowns.list().iter().enumerate().map(number).collect();
     let left_out = fit.linear.left_out(&fit.postures);
     let rms = |r: &DVector<f64>| (r.norm_squared() / r.len() as f64).sqrt();
     let residuals: Vec<PostureResiduals> = (0..fit.names.len())
@@ -111,7 +119,7 @@ pub fn identification(
             left_out: left_out[i].as_ref().map(rms),
         })
         .collect();
-    let lengths = Lengths::of(&fit, observations);
+    let lengths = Lengths::of(observations);
     let mut findings = findings(&numbers, &residuals, &fit.linear);
     findings.extend(exchanged_markers(&fit, observations));
     findings.splice(0..0, scale(&fit));
@@ -160,18 +168,15 @@ fn rows_of(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Geometric mean of the diagonal entries of the row and the column of an entry of a matrix, in the unit of the entry.
-fn matrix_size(unknowns: &Unknowns, at: usize, in_file: &[f64]) -> Option<f64> {
-    let Form::MatrixEntry(row, column) = unknowns.list()[at].form else {
-        return None;
-    };
-    let index = |entry: (usize, usize)| entries().position(|e| e == entry).unwrap_or(0);
-    let first = at - index((row, column));
-    let si = |k: usize| {
-        let own = first + index((k, k));
-        in_file[own] * unknowns.list()[own].parameter.in_si
-    };
-    Some((si(row) * si(column)).sqrt() / unknowns.list()[at].parameter.in_si)
+/// Size of an entry of an identified stiffness matrix, in the unit of the entry.
+fn size_in_file(unknowns: &Unknowns, at: usize, row: usize, column: usize, in_file: &[f64]) -> f64 {
+    let in_si = |k: usize| unknowns.list()[k].parameter.in_si;
+    let first = at - index_of(row, column);
+    let size = entry_size(row, column, |k| {
+        let own = first + index_of(k, k);
+        in_file[own] * in_si(own)
+    });
+    size / in_si(at)
 }
 
 /// Quantile of Student's distribution for a confidence of 95 %: postures are what is independent, and few of them are less sure.
@@ -180,43 +185,16 @@ fn student_95(postures: usize, degrees_of_freedom: usize) -> f64 {
     StudentsT::new(0.0, 1.0, freedom as f64).map_or(f64::INFINITY, |t| t.inverse_cdf(0.975))
 }
 
-fn number_of(
-    unknown: &Unknown,
-    estimate: f64,
-    in_file: f64,
-    deviation: f64,
-    knowledge: Knowledge,
-    quantile: f64,
-) -> IdentifiedNumber {
-    let unseen = knowledge == Knowledge::Unseen;
+/// Bounds of a number, in its unit, for its estimate and how far it may be off.
+fn interval(unknown: &Unknown, estimate: f64, off: f64) -> [Option<f64>; 2] {
     let in_si = unknown.parameter.in_si;
-    let (low, high) = (
-        estimate - quantile * deviation,
-        estimate + quantile * deviation,
-    );
-    let interval = match unknown.form {
+    let (low, high) = (estimate - off, estimate + off);
+    match unknown.form {
         // The stiffness is largest where the compliance is least.
-        Form::Compliance => [
-            (high > 0.0).then(|| 1.0 / (high * in_si)),
-            (low > 0.0).then(|| 1.0 / (low * in_si)),
-        ],
+        Form::Compliance => {
+            [high, low].map(|compliance| (compliance > 0.0).then(|| 1.0 / (compliance * in_si)))
+        }
         _ => [Some(low / in_si), Some(high / in_si)],
-    };
-    let is_entry = matches!(unknown.form, Form::MatrixEntry(..));
-    IdentifiedNumber {
-        number: unknown.parameter.path.clone(),
-        unit: unknown.parameter.unit.to_owned(),
-        before: unknown.parameter.value,
-        identified: Some(in_file)
-            .filter(|x| x.is_finite() && (unknown.form != Form::Compliance || estimate > 0.0)),
-        deviation_percent: None,
-        deviation: None,
-        interval: (!unseen && !is_entry).then_some(interval),
-        at_bound: false,
-        is_of_model: unknown.form != Form::Friction,
-        acts_beside_joints: unknown.form == Form::Parallel,
-        knowledge,
-        known_combination: None,
     }
 }
 
@@ -245,18 +223,16 @@ fn combination_of(unknown: usize, seen: &Identifiability, unknowns: &Unknowns) -
 struct Lengths(Vec<Vec<Option<f64>>>);
 
 impl Lengths {
-    fn of(fit: &Fit, observations: &[Observation]) -> Self {
-        let mut by_name: Vec<Vec<Option<f64>>> = vec![Vec::new(); fit.names.len()];
-        for observation in observations {
-            let Some(at) = fit.names.iter().position(|n| *n == observation.posture) else {
-                continue;
-            };
-            by_name[at].extend(observation.readings.iter().map(|r| match r.of {
-                crate::experiment::ReadingOf::Along(_) => Some(r.deviation),
-                crate::experiment::ReadingOf::About(_) => None,
-            }));
-        }
-        Self(by_name)
+    fn of(observations: &[Observation]) -> Self {
+        let length = |reading: &Reading| match reading.of {
+            ReadingOf::Along(_) => Some(reading.deviation),
+            ReadingOf::About(_) => None,
+        };
+        let own = |(_, members): (&str, Vec<usize>)| {
+            let readings = members.iter().flat_map(|m| &observations[*m].readings);
+            readings.map(length).collect()
+        };
+        Self(by_posture(observations).into_iter().map(own).collect())
     }
 
     /// Root mean square of the lengths among numbers in standard deviations, mm.

@@ -8,7 +8,7 @@ use kinetostat::Mechanism;
 use kinetostat_model::{Model, Parameter, ParameterKind, ParametricModel};
 use nalgebra::DVector;
 
-use crate::compliance_matrix::{entries, inverse, matrix_of, with_unit_diagonal};
+use crate::compliance_matrix::{entries, entry_size, inverse, matrix_of, with_unit_diagonal};
 use crate::cone::Constraint;
 use crate::error::IdentificationError;
 use crate::springs::{difference, drive_coordinates};
@@ -73,11 +73,11 @@ impl Unknowns {
     /// A pattern that matches nothing, or numbers that no deflection shows.
     pub fn matching(model: &Model, patterns: &[&str]) -> Result<Self, IdentificationError> {
         let all = model.parameters();
-        let drives = drives(model);
+        let drives = drives(model, &all);
         let mut paths: Vec<&str> = Vec::new();
         for pattern in patterns {
             let hits = |p: &Parameter| match *pattern {
-                "joints" => drives.contains(&p.path),
+                "joints" => drives.contains(&p.path.as_str()),
                 // Several at once are those of springs; a length or a mass is named by itself. A table by its path has no factor on it.
                 own => {
                     let rest = p.path.strip_prefix(own);
@@ -248,31 +248,15 @@ impl Unknowns {
     }
 }
 
-/// Paths of the stiffnesses of all drives.
-fn drives(model: &Model) -> Vec<String> {
-    let names: Vec<(String, String)> = model
-        .mechanism
-        .limbs()
-        .iter()
-        .flat_map(|limb| {
-            let chain = &limb.nominal;
-            chain
-                .actuators()
-                .iter()
-                .map(|a| (chain.name().to_owned(), a.name.clone()))
-                .collect::<Vec<_>>()
-        })
-        .collect();
-    let is_drive = |path: &str| {
-        names
-            .iter()
-            .any(|(_, name)| path.contains(&format!(".{name}.stiffness_n")))
-    };
-    model
-        .parameters()
-        .into_iter()
-        .map(|p| p.path)
-        .filter(|path| path.starts_with("chain.") && is_drive(path))
+/// Paths of the stiffnesses of all drives among the numbers of a model.
+fn drives<'p>(model: &Model, all: &'p [Parameter]) -> Vec<&'p str> {
+    let limbs = model.mechanism.limbs().iter();
+    let drives = limbs.flat_map(|limb| limb.nominal.actuators());
+    let endings: Vec<String> = drives.map(|a| format!(".{}.stiffness_n", a.name)).collect();
+    let paths = all.iter().map(|p| p.path.as_str());
+    paths
+        .filter(|path| path.starts_with("chain."))
+        .filter(|path| endings.iter().any(|ending| path.contains(ending)))
         .collect()
 }
 
@@ -371,7 +355,7 @@ fn unknowns(parameters: &[Parameter]) -> Result<Vec<Unknown>, IdentificationErro
         let compliance = inverse(&matrix_of(&stiffness));
         for ((row, column), unknown) in entries().zip(&mut list[first..first + 21]) {
             unknown.nominal = compliance[(row, column)];
-            unknown.size = (compliance[(row, row)] * compliance[(column, column)]).sqrt();
+            unknown.size = entry_size(row, column, |k| compliance[(k, k)]);
         }
     }
     Ok(list)

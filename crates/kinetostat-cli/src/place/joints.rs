@@ -141,7 +141,12 @@ pub(crate) fn on_axes(controller: &Controller) -> Vec<Named> {
 }
 
 /// `NAME=VALUE` over `start`, all in m or rad; `names` with the size of their usual unit.
-fn read(flag: &str, given: &[String], names: &[Named], start: Vec<f64>) -> Answer<Vec<f64>> {
+pub(crate) fn read(
+    flag: &str,
+    given: &[String],
+    names: &[Named],
+    start: Vec<f64>,
+) -> Answer<Vec<f64>> {
     let mut values = start;
     let mut seen: Vec<usize> = Vec::new();
     for text in given {

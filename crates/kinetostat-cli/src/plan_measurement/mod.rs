@@ -9,7 +9,6 @@ mod text;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use kinetostat::MotionKind;
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_identification::{
     Axes, DEVIATION, Observation, Plan, PlanError, PlanTask, PlannedMeasurement, Purpose, Reading,
@@ -21,8 +20,9 @@ use nalgebra::Vector3;
 
 use crate::files::answer_files::{AnswerFiles, ClaimedFiles, Shown};
 use crate::files::input_files::InputFiles;
+use crate::machine::units::unit;
 use crate::options::{number, vector, whole};
-use crate::place::joints::{self, JointValue};
+use crate::place::joints::{self, JointValue, Named};
 use crate::plan_measurement::answer::{PlanAnswer, PlanRow, PlannedNumber};
 use crate::ui::csv_table::{cell, written};
 use crate::ui::failure::{Answer, Failing, Failure};
@@ -333,44 +333,21 @@ fn purpose(args: &PlanMeasurementArgs, model: &Model) -> Answer<Purpose> {
 /// `A1=10,A2=-90`: degrees and millimetres; what is not named stays at home.
 fn commands(words: &str, axes: &Axes<'_>, model: &Model) -> Answer<Vec<f64>> {
     let home = joints::home(&model.mechanism);
-    let mut shown = axes.shown(&home).unwrap_or_default();
-    for part in words.split(',') {
-        let refuse = |why: &str| {
-            let names: Vec<&str> = axes.names().iter().map(|n| n.0.as_str()).collect();
-            ErrorCode::Value.failure(format!(
-                "--work '{part}': {why}; write NAME=VALUE with the axes {}",
-                names.join(", ")
-            ))
-        };
-        let (name, value) = part
-            .split_once('=')
-            .ok_or_else(|| refuse("there is no ="))?;
-        let value: Option<f64> = value.trim().parse().ok();
-        let value = value.filter(|v| v.is_finite());
-        let value = value.ok_or_else(|| refuse("this is no number"))?;
-        let at = axes
-            .names()
-            .iter()
-            .position(|n| n.0 == name.trim())
-            .ok_or_else(|| refuse("there is no such axis"))?;
-        shown[at] = value * size(axes.names()[at].1).1;
-    }
+    let start = axes.shown(&home).unwrap_or_default();
+    let names = axes.names().iter();
+    let names: Vec<Named> = names
+        .map(|(name, kind)| (name.clone(), *kind, unit(*kind).1))
+        .collect();
+    let words: Vec<String> = words.split(',').map(str::to_owned).collect();
+    let shown = joints::read("--work", &words, &names, start)?;
     let commands = axes.commands(&shown);
     let commands = commands
         .ok_or_else(|| ErrorCode::Value.failure("--work: the axes do not fit the model"))?;
     match axes.beyond_limits(&commands).into_iter().next() {
         Some(beyond) => {
-            Err(ErrorCode::OutsideLimits.failure(format!("--work '{words}': {beyond}")))
+            Err(ErrorCode::OutsideLimits.failure(format!("--work '{}': {beyond}", words.join(","))))
         }
         None => Ok(commands),
-    }
-}
-
-/// Unit in which an axis is shown, and its size in SI.
-fn size(kind: MotionKind) -> (&'static str, f64) {
-    match kind {
-        MotionKind::Prismatic => ("mm", 1e-3),
-        MotionKind::Revolute => ("deg", std::f64::consts::PI / 180.0),
     }
 }
 
@@ -384,7 +361,7 @@ fn answer_of(args: &PlanMeasurementArgs, task: &PlanTask<'_>, found: &Plan) -> P
             .iter()
             .zip(&m.shown)
             .map(|((name, kind), x)| {
-                let (unit, size) = size(*kind);
+                let (unit, size) = unit(*kind);
                 JointValue {
                     name: name.clone(),
                     value: x / size,
@@ -443,7 +420,7 @@ fn table(task: &PlanTask<'_>, found: &Plan) -> Answer<Vec<u8>> {
     head.extend(
         axes.names()
             .iter()
-            .map(|(name, kind)| format!("{name}_{}", size(*kind).0)),
+            .map(|(name, kind)| format!("{name}_{}", unit(*kind).0)),
     );
     for name in [
         "fx_n",
@@ -468,7 +445,7 @@ fn table(task: &PlanTask<'_>, found: &Plan) -> Answer<Vec<u8>> {
             let mut row = vec![posture.to_string()];
             // A thousandth of a degree or of a millimetre is what a controller takes.
             let shown = axes.names().iter().zip(&m.shown);
-            row.extend(shown.map(|((_, kind), x)| format!("{:.3}", x / size(*kind).1)));
+            row.extend(shown.map(|((_, kind), x)| format!("{:.3}", x / unit(*kind).1)));
             // Zero has no sign.
             row.extend(m.load.force.iter().map(|f| cell(*f + 0.0)));
             row.extend(

@@ -8,6 +8,9 @@ mod frame;
 mod read;
 mod row;
 
+use std::collections::BTreeMap;
+
+use kinetostat::number::larger;
 use nalgebra::Vector3;
 
 use crate::experiment::{Branch, Observation, Reading, ReadingOf, TestLoad};
@@ -19,17 +22,17 @@ pub use row::{DEVIATION, MOST_FAULTS, MeasuredRow, Read, TURN_DEVIATION, TableFa
 
 /// The largest load of the loop that a row belongs to: in its posture, at its point and along its force, or, behind the loop, along the
 /// force of the row before.
-fn whole_load(rows: &[MeasuredRow], at: usize, gravity: &Vector3<f64>) -> Option<TestLoad> {
-    let of = &rows[at];
-    let is_beside = |row: &&MeasuredRow| {
-        row.posture == of.posture && row.is_loaded() && row.load.at == of.load.at
-    };
-    let last = rows[..=at].iter().rev().find(is_beside)?;
-    let direction = last.load_under(gravity).force.normalize();
-    let loads = rows
+fn whole_load(
+    beside: &[&MeasuredRow],
+    of: &MeasuredRow,
+    gravity: &Vector3<f64>,
+) -> Option<TestLoad> {
+    let same_point = beside
         .iter()
-        .filter(is_beside)
-        .map(|row| row.load_under(gravity));
+        .filter(|row| row.is_loaded() && row.load.at == of.load.at);
+    let last = same_point.clone().rfind(|row| row.line <= of.line)?;
+    let direction = last.load_under(gravity).force.normalize();
+    let loads = same_point.map(|row| row.load_under(gravity));
     let same = loads.filter(|load| load.force.normalize().dot(&direction) > SAME_WAY);
     same.max_by(|a, b| a.force.norm().total_cmp(&b.force.norm()))
 }
@@ -42,8 +45,7 @@ const SAME_AXES: f64 = 2e-6;
 /// Faults of rows that cannot stand beside each other: one name for several postures, masses without gravity.
 fn contradictions(rows: &[MeasuredRow], gravity: &Vector3<f64>) -> Vec<TableFault> {
     let mut faults = Vec::new();
-    let mut first: std::collections::BTreeMap<&str, &MeasuredRow> =
-        std::collections::BTreeMap::new();
+    let mut first: BTreeMap<&str, &MeasuredRow> = BTreeMap::new();
     for row in rows {
         let fault = |column: Option<&str>, message: String| TableFault {
             line: row.line,
@@ -57,7 +59,7 @@ fn contradictions(rows: &[MeasuredRow], gravity: &Vector3<f64>) -> Vec<TableFaul
             .iter()
             .zip(&before.shown)
             .map(|(a, b)| (a - b).abs())
-            .fold(0.0, f64::max);
+            .fold(0.0, larger);
         if apart > SAME_AXES {
             faults.push(fault(None, format!(
                 "posture '{}' has other axes here than in line {}: give it another name, or, if the machine stood still, the same axes",
@@ -82,7 +84,12 @@ pub fn observations(
 ) -> Result<Vec<Observation>, Vec<TableFault>> {
     let mut faults = contradictions(rows, gravity);
     let mut found = Vec::new();
-    for (at, row) in rows.iter().enumerate() {
+    let mut by_posture: BTreeMap<&str, Vec<&MeasuredRow>> = BTreeMap::new();
+    for row in rows {
+        by_posture.entry(&row.posture).or_default().push(row);
+    }
+    for row in rows {
+        let beside = &by_posture[row.posture.as_str()];
         // Rows of a plan that were not measured yet.
         if row.read == Read::default() {
             continue;
@@ -123,11 +130,9 @@ pub fn observations(
             });
         }
         if let Some(position) = &row.read.position {
-            let unloaded: Vec<&Vector3<f64>> = rows
+            let unloaded: Vec<&Vector3<f64>> = beside
                 .iter()
-                .filter(|other| {
-                    !other.is_loaded() && other.posture == row.posture && other.marker == row.marker
-                })
+                .filter(|other| !other.is_loaded() && other.marker == row.marker)
                 .filter_map(|other| other.read.position.as_ref())
                 .collect();
             match unloaded.len() {
@@ -147,7 +152,7 @@ pub fn observations(
             branch: row.unloading.and_then(|unloading| {
                 Some(Branch {
                     unloading,
-                    whole: whole_load(rows, at, gravity)?,
+                    whole: whole_load(beside, row, gravity)?,
                 })
             }),
             readings,

@@ -9,29 +9,21 @@ use kinetostat_identification::{
 use kinetostat_model::Model;
 use nalgebra::{Vector3, vector};
 
-use crate::support::{H6, MARKERS, Random, TOOL, angles, asked, h6, three_markers, tracker, worst};
+use crate::support::{
+    self, H6, MARKERS, Random, TOOL, angles, asked, h6, pulls, three_markers, tracker, worst,
+};
 
 type Outcome = anyhow::Result<()>;
 
-/// What the model itself shows, as if it had been read, with noise drawn reading by reading.
+/// What the model itself shows, as if it had been read.
 fn read(
     model: &Model,
     observations: &mut [Observation],
     theory: Theory,
-    mut noise: impl FnMut(&Reading) -> f64,
+    noise: impl FnMut(&Reading) -> f64,
 ) -> anyhow::Result<()> {
     let unknowns = Unknowns::matching(model, &["joints"])?;
-    let predictions = predict(&unknowns, &unknowns.nominal(), observations, theory)?;
-    for (observation, prediction) in observations.iter_mut().zip(&predictions) {
-        for (reading, value) in observation
-            .readings
-            .iter_mut()
-            .zip(prediction.values.iter())
-        {
-            reading.value = value + noise(reading);
-        }
-    }
-    Ok(())
+    support::read(&unknowns, observations, theory, noise)
 }
 
 /// The fit, from a model whose joints are all wrong.
@@ -258,13 +250,7 @@ fn what_a_posture_shares_widens_the_deviation() -> Outcome {
     // P11.
     let model = h6(false);
     let mut random = Random::new(81);
-    let mut observations: Vec<Observation> = (0..12)
-        .map(|i| {
-            let commands = angles(&mut random);
-            let load = TestLoad::force_at(TOOL, random.vector(2000.0));
-            asked(i, commands, load, three_markers(20e-6))
-        })
-        .collect();
+    let mut observations = pulls(&mut random, 12);
     read(&model, &mut observations, Theory::SmallLoads, |r| {
         r.deviation * random.normal()
     })?;
@@ -303,13 +289,7 @@ fn jumps_of_whole_postures_count_less() -> Outcome {
     // P12.
     let model = h6(false);
     let mut random = Random::new(82);
-    let mut observations: Vec<Observation> = (0..24)
-        .map(|i| {
-            let commands = angles(&mut random);
-            let load = TestLoad::force_at(TOOL, random.vector(2000.0));
-            asked(i, commands, load, three_markers(20e-6))
-        })
-        .collect();
+    let mut observations = pulls(&mut random, 24);
     read(&model, &mut observations, Theory::SmallLoads, |r| {
         r.deviation * random.normal()
     })?;

@@ -11,7 +11,9 @@ use kinetostat_model::Model;
 use nalgebra::{DMatrix, DVector, Rotation3, Translation3, UnitQuaternion, Vector3, vector};
 
 use crate::regressors::Arm;
-use crate::support::{H6, MARKERS, Random, TOOL, angles, asked, h6, three_markers, worst};
+use crate::support::{
+    H6, MARKERS, Random, TOOL, angles, asked, h6, pulls, put, three_markers, worst,
+};
 
 type Outcome = anyhow::Result<()>;
 
@@ -96,15 +98,9 @@ fn legs_of_a_hexapod_are_found_from_its_platform() -> Outcome {
         &observations,
         Theory::SmallLoads,
     )?;
-    for (observation, prediction) in observations.iter_mut().zip(&predictions) {
-        for (reading, value) in observation
-            .readings
-            .iter_mut()
-            .zip(prediction.values.iter())
-        {
-            reading.value = value + reading.deviation * random.normal();
-        }
-    }
+    put(&mut observations, &predictions, &mut |r| {
+        r.deviation * random.normal()
+    });
     // From a machine whose legs are all alike.
     let alike = hexapod(&[20e6; 6])?;
     let found = identify(
@@ -161,17 +157,7 @@ fn twelve() -> anyhow::Result<(Vec<DMatrix<f64>>, DVector<f64>)> {
     let model = h6(false);
     let unknowns = Unknowns::matching(&model, &["joints"])?;
     let mut random = Random::new(81);
-    let observations: Vec<Observation> = (0..12)
-        .map(|i| {
-            let commands = angles(&mut random);
-            asked(
-                i,
-                commands,
-                TestLoad::force_at(TOOL, random.vector(2000.0)),
-                three_markers(20e-6),
-            )
-        })
-        .collect();
+    let observations = pulls(&mut random, 12);
     let predictions = predict(
         &unknowns,
         &unknowns.nominal(),
@@ -257,15 +243,9 @@ fn a_prior_keeps_what_readings_do_not_tell() -> Outcome {
         &observations,
         Theory::SmallLoads,
     )?;
-    for (observation, prediction) in observations.iter_mut().zip(&predictions) {
-        for (reading, value) in observation
-            .readings
-            .iter_mut()
-            .zip(prediction.values.iter())
-        {
-            reading.value = value + reading.deviation * random.normal();
-        }
-    }
+    put(&mut observations, &predictions, &mut |r| {
+        r.deviation * random.normal()
+    });
     let with = identify(
         &unknowns,
         &observations,
@@ -334,15 +314,9 @@ fn a_compensator_is_weakly_known_and_its_joint_well() -> Outcome {
         let off = (&slope - p.derivatives.column(1)).amax() / slope.amax();
         assert!(off < 1e-3, "{off:e}");
     }
-    for (observation, prediction) in observations.iter_mut().zip(&predictions) {
-        for (reading, value) in observation
-            .readings
-            .iter_mut()
-            .zip(prediction.values.iter())
-        {
-            reading.value = value + reading.deviation * random.normal();
-        }
-    }
+    put(&mut observations, &predictions, &mut |r| {
+        r.deviation * random.normal()
+    });
     let found = kinetostat_identification::identification(&unknowns, &observations, &LOADED)?;
     let percent: Vec<f64> = found
         .numbers
@@ -445,15 +419,9 @@ fn what_is_planned_and_measured_compensates_the_machine() -> Outcome {
     let mut random = Random::new(2);
     let mut within = 0;
     for _ in 0..20 {
-        for (observation, prediction) in observations.iter_mut().zip(&shown) {
-            for (reading, value) in observation
-                .readings
-                .iter_mut()
-                .zip(prediction.values.iter())
-            {
-                reading.value = value + reading.deviation * random.normal();
-            }
-        }
+        put(&mut observations, &shown, &mut |r| {
+            r.deviation * random.normal()
+        });
         let found = kinetostat_identification::identification(&numbers, &observations, &LOADED)?;
         let identified = kinetostat_identification::identified_model(&drawn, &found, "plan.csv")?;
         let left = error(&identified)?;

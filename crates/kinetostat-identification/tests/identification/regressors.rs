@@ -2,7 +2,7 @@
 //!
 //! Lengths in metres, angles in radians, forces in newtons. Twists are `[v; w]` and wrenches `[f; m]`, in base axes.
 
-use crate::support::Random;
+use crate::support::{H6, RANGES, Random};
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Unit, Vector3};
 
 /// Serial arm of revolute joints as a product of exponentials. In the zero posture the flange axes are the base axes.
@@ -33,15 +33,8 @@ impl Arm {
                 (x, wrist),
             ],
             flange: Vector3::new(2.08, 0.0, 1.945),
-            ranges_deg: vec![
-                (-150.0, 150.0),
-                (-60.0, 60.0),
-                (-70.0, 80.0),
-                (-170.0, 170.0),
-                (-110.0, 110.0),
-                (-170.0, 170.0),
-            ],
-            compliances: vec![0.25e-6, 0.30e-6, 0.40e-6, 3.0e-6, 3.3e-6, 2.4e-6],
+            ranges_deg: RANGES.into(),
+            compliances: H6.into(),
         }
     }
 

@@ -1,6 +1,8 @@
 //! Machines, random numbers and experiments of the reference values for identification.
 
-use kinetostat_identification::{Observation, Reading, TestLoad};
+use kinetostat_identification::{
+    Observation, Prediction, Reading, TestLoad, Theory, Unknowns, predict,
+};
 use kinetostat_model::Model;
 use kinetostat_testing as _;
 use nalgebra::{Vector3, vector};
@@ -138,18 +140,20 @@ pub fn h6(weights: bool) -> Model {
     arm(&JOINTS, FLANGE, &H6, weights, &|_| String::new())
 }
 
+/// Ranges of the joints of H6, degrees.
+pub const RANGES: [(f64, f64); 6] = [
+    (-150.0, 150.0),
+    (-60.0, 60.0),
+    (-70.0, 80.0),
+    (-170.0, 170.0),
+    (-110.0, 110.0),
+    (-170.0, 170.0),
+];
+
 /// Six joint angles within the ranges of H6, rad.
 pub fn angles(random: &mut Random) -> Vec<f64> {
-    let ranges = [
-        (-150.0, 150.0),
-        (-60.0, 60.0),
-        (-70.0, 80.0),
-        (-170.0, 170.0),
-        (-110.0, 110.0),
-        (-170.0, 170.0),
-    ];
+    let ranges = RANGES.iter();
     ranges
-        .iter()
         .map(|(low, high)| random.between(*low, *high).to_radians())
         .collect()
 }
@@ -168,6 +172,45 @@ pub fn asked(
         branch: None,
         readings,
     }
+}
+
+/// What the machine of the unknowns shows, as if it had been read, with noise drawn reading by reading.
+pub fn read(
+    unknowns: &Unknowns,
+    observations: &mut [Observation],
+    theory: Theory,
+    mut noise: impl FnMut(&Reading) -> f64,
+) -> anyhow::Result<()> {
+    let shown = predict(unknowns, &unknowns.nominal(), observations, theory)?;
+    put(observations, &shown, &mut noise);
+    Ok(())
+}
+
+/// Puts what is shown into the readings, with noise.
+pub fn put(
+    observations: &mut [Observation],
+    shown: &[Prediction],
+    noise: &mut impl FnMut(&Reading) -> f64,
+) {
+    for (observation, prediction) in observations.iter_mut().zip(shown) {
+        for (reading, value) in observation
+            .readings
+            .iter_mut()
+            .zip(prediction.values.iter())
+        {
+            reading.value = value + noise(reading);
+        }
+    }
+}
+
+/// Postures of H6 with a force up to 2 kN at the tool point each, three markers known to 20 um.
+pub fn pulls(random: &mut Random, count: usize) -> Vec<Observation> {
+    let pull = |i| {
+        let commands = angles(random);
+        let load = TestLoad::force_at(TOOL, random.vector(2000.0));
+        asked(i, commands, load, three_markers(20e-6))
+    };
+    (0..count).map(pull).collect()
 }
 
 /// Readings of the displacements of three markers.

@@ -1,5 +1,6 @@
 //! Tables of measurements: what is read, and how every fault is named.
 
+use kinetostat::number::larger;
 use kinetostat_identification::{
     Axes, NoFrame, ReadingOf, TableFault, into_base, observations, read_table,
 };
@@ -52,7 +53,7 @@ fn decimal_signs_and_separators_are_those_of_the_file() -> Outcome {
         .iter()
         .zip([12.5e-6, -0.25e-3, 1e-3])
         .map(|(a, b)| (a - b).abs());
-    assert!(off.fold(0.0, f64::max) < 1e-18, "{values:?}");
+    assert!(off.fold(0.0, larger) < 1e-18, "{values:?}");
     for other in &found[1..] {
         assert_eq!(other, &found[0]);
     }
@@ -79,7 +80,7 @@ fn positions_are_compared_with_those_without_a_load() -> Outcome {
         .iter()
         .zip([0.0, 0.0, -1e-3])
         .map(|(a, b): (&f64, f64)| (a - b).abs());
-    assert!(off.fold(0.0, f64::max) < 1e-15, "{values:?}");
+    assert!(off.fold(0.0, larger) < 1e-15, "{values:?}");
     assert!((found[0].readings[0].deviation - 1e-5 * 1.5_f64.sqrt()).abs() < 1e-15);
     assert_eq!(found[0].readings[0].marker, vector![0.05, 0.0, 0.0]);
     Ok(())
