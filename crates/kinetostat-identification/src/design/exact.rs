@@ -44,7 +44,7 @@ pub(super) fn search(
             improve(problem, &regular, &mut chosen);
         }
         let Some(value) = improve(problem, &problem.fixed, &mut chosen) else {
-            largest_rank = largest_rank.max(problem.rank(&chosen));
+            largest_rank = usize::max(largest_rank, problem.rank(&chosen));
             continue;
         };
         if best.as_ref().is_none_or(|(_, v)| value < *v) {

@@ -1,5 +1,6 @@
 //! Non-negative least squares by the active-set method of Lawson and Hanson (1974), as an independent reference.
 
+use kinetostat_testing::largest;
 use nalgebra::{DMatrix, DVector};
 
 /// Minimiser of `|A x - y|` with `x >= 0`. Unknowns that are not needed are exactly zero.
@@ -30,7 +31,8 @@ pub fn non_negative(matrix: &DMatrix<f64>, data: &DVector<f64>) -> DVector<f64> 
                 .map(|(&k, v)| v / lengths[k])
                 .collect();
             let blocking = (passive.iter().zip(&answer)).filter(|&(_, &v)| v <= 0.0);
-            let step = blocking.fold(1.0_f64, |s, (&k, v)| s.min(x[k] / (x[k] - v)));
+            let shares = blocking.map(|(&k, v)| x[k] / (x[k] - v));
+            let step = 1.0 - largest(shares.map(|s| 1.0 - s).chain([0.0]));
             for (&k, v) in passive.iter().zip(&answer) {
                 x[k] += step * (v - x[k]);
                 if *v <= 0.0 && x[k] <= 1e-12 * data.norm() / lengths[k] {
