@@ -87,6 +87,7 @@ pub use exact::{exact, exact_toml};
 pub use model::{Model, json_schema, read_model, require_stiffness};
 pub use parameters::{NumberEdit, Parameter, ParameterKind, ParametricModel};
 pub use plausibility::link_matrix::doubts_of_link_matrix;
+pub use plausibility::masses::inertia_of_body;
 pub use plausibility::numbers::{looks_like_radians, odd_angles};
 pub use presets::{Preset, PresetKind, preset_names, preset_text};
 pub use problem::{ModelError, Problem, Severity, TextStyle, shortened};

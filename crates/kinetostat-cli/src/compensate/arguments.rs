@@ -96,6 +96,7 @@ A job file:
   length_mm = 100                  # or pose = { position_mm = [...], ... }
   # mass_kg = 12                   # spindle and tool on the flange
   # centre_of_mass_mm = [0, 0, 60] # in it; halfway to the tip without this
+  # inertia_kg_m2 = [[0.2, 0, 0], [0, 0.2, 0], [0, 0, 0.05]] # about that centre
 
   # [[tools]]                      # several tools: T1 M6, T2 M6
   # number = 1

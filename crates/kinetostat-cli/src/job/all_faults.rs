@@ -89,10 +89,11 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
             // A model that cannot be read leaves tool, placement and load to check, without masses, for this machine has no weight.
             let mut job = job.clone();
             job.job.deviation.clear();
-            (job.job.tool.mass_kg, job.job.tool.centre_of_mass_mm) = (None, None);
+            let tool = &mut job.job.tool;
+            (tool.mass_kg, tool.centre_of_mass_mm, tool.inertia_kg_m2) = (None, None, None);
             for tool in &mut job.job.tools {
                 let tool = tool.get_mut();
-                (tool.mass_kg, tool.centre_of_mass_mm) = (None, None);
+                (tool.mass_kg, tool.centre_of_mass_mm, tool.inertia_kg_m2) = (None, None, None);
             }
             let mut inputs = Vec::new();
             machine_setup(

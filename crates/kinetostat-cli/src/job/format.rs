@@ -125,6 +125,8 @@ pub(crate) struct ToolTable {
     pub mass_kg: Option<Spanned<f64>>,
     /// Centre of mass in the frame of the flange, mm; halfway to the tip if not given.
     pub centre_of_mass_mm: Option<Spanned<[f64; 3]>>,
+    /// Inertia about the centre of mass in axes of the flange, kg m^2, three rows; a point if not given.
+    pub inertia_kg_m2: Option<Spanned<[[f64; 3]; 3]>>,
 }
 
 /// A tool that the program takes by its number.
@@ -143,6 +145,8 @@ pub(crate) struct NumberedTool {
     pub mass_kg: Option<Spanned<f64>>,
     /// Centre of mass in the frame of the flange, mm; halfway to the tip if not given.
     pub centre_of_mass_mm: Option<Spanned<[f64; 3]>>,
+    /// Inertia about the centre of mass in axes of the flange, kg m^2, three rows; a point if not given.
+    pub inertia_kg_m2: Option<Spanned<[[f64; 3]; 3]>>,
     /// Load on this tool; without it, the job's `[load]`.
     pub load: Option<LoadTable>,
 }

@@ -27,7 +27,7 @@ use crate::job::robot::machine::{
     placement_of_robot, tool_of_robot, tools_of_converted, tools_of_robot,
 };
 use crate::job::rotary::rotary;
-use crate::job::tool_mass::{ToolMass, carrying, tool_mass};
+use crate::job::tool_mass::{StatedMass, ToolMass, carrying};
 use crate::job::tools::{numbered_tools, tool};
 use crate::machine::model_warnings::deviation_descriptions;
 use crate::machine::stiffness_list;
@@ -133,8 +133,12 @@ pub(crate) fn machine_setup(
     }
     let mass = job.map(|j| {
         let table = &j.job.tool;
-        let centre = table.centre_of_mass_mm.as_ref();
-        tool_mass(j, table.mass_kg.as_ref(), centre, &tool)
+        let stated = StatedMass {
+            mass: table.mass_kg.as_ref(),
+            centre: table.centre_of_mass_mm.as_ref(),
+            inertia: table.inertia_kg_m2.as_ref(),
+        };
+        stated.read(j, &named.model, &tool)
     });
     let mass = mass.transpose()?.flatten();
     if let Some(cell) = &cell {

@@ -9,7 +9,7 @@ use serde_spanned::Spanned;
 use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
 use crate::job::load::load;
-use crate::job::tool_mass::{ToolMass, carrying, tool_mass};
+use crate::job::tool_mass::{StatedMass, ToolMass, carrying};
 use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::{short, triple};
 
@@ -53,8 +53,12 @@ pub(crate) fn numbered_tools(
         }
         let (pose, text) = tool_of(j, tool.length_mm.as_ref(), tool.pose.as_ref())?;
         let load = load(job, Some(tool.load.as_ref().unwrap_or(&j.job.load)), flags)?;
-        let centre = tool.centre_of_mass_mm.as_ref();
-        let own = tool_mass(j, tool.mass_kg.as_ref(), centre, &pose)?;
+        let stated = StatedMass {
+            mass: tool.mass_kg.as_ref(),
+            centre: tool.centre_of_mass_mm.as_ref(),
+            inertia: tool.inertia_kg_m2.as_ref(),
+        };
+        let own = stated.read(j, bare, &pose)?;
         let mass = own.or(masses.first().filter(|m| m.0.is_none()).map(|m| m.1));
         let kg = mass.map_or_else(String::new, |m| format!(", {} kg", short(m.mass_kg)));
         all.push(format!("tool {}: {text}{kg}", tool.number));

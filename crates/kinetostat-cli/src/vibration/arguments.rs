@@ -23,6 +23,10 @@ pub(crate) struct VibrationArgs {
     /// Its centre in the frame of the flange, mm; halfway to the tip without it
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], requires = "tool_mass_kg", allow_negative_numbers = true, value_parser = number)]
     pub(crate) tool_centre_of_mass_mm: Option<Vec<f64>>,
+    /// Its inertia about that centre in axes of the flange, kg m^2; a point without it. Products carry
+    /// their minus sign
+    #[arg(long, num_args = 6, value_names = ["XX", "YY", "ZZ", "XY", "XZ", "YZ"], requires = "tool_mass_kg", allow_negative_numbers = true, value_parser = number)]
+    pub(crate) tool_inertia_kg_m2: Option<Vec<f64>>,
     /// Constant force on the tool's tip, N, about whose equilibrium the machine vibrates
     #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true, value_parser = number)]
     pub(crate) force: Option<Vec<f64>>,

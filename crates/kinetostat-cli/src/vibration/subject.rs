@@ -8,6 +8,7 @@ use kinetostat_analysis::vibration::VibratingMachine;
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_dynamics::{Error, Held};
 use kinetostat_machining::{Warning, WarningCode};
+use kinetostat_model::inertia_of_body;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::end_condition::holding::list;
@@ -32,7 +33,21 @@ pub(crate) fn query(args: &VibrationArgs) -> Answer<PlaceQuery> {
         let stated = args.tool_centre_of_mass_mm.as_deref();
         let centre = stated.map(|c| vector("--tool-centre-of-mass-mm", c));
         let centre_mm = centre.transpose()?.unwrap_or(halfway);
-        read = carrying(&read, ToolMass { mass_kg, centre_mm })?;
+        let inertia = match args.tool_inertia_kg_m2.as_deref() {
+            Some(&[xx, yy, zz, xy, xz, yz]) => {
+                let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+                inertia_of_body(rows).map_err(|(message, help)| {
+                    ErrorCode::Value.failure(format!("--tool-inertia-kg-m2: {message}; {help}"))
+                })?
+            }
+            _ => Matrix3::zeros(),
+        };
+        let tool = ToolMass {
+            mass_kg,
+            centre_mm,
+            inertia,
+        };
+        read = carrying(&read, tool)?;
     }
     place_query_of(
         &read,

@@ -38,6 +38,15 @@ fn deflected(here: &Path, more: &str) -> ([f64; 2], String) {
     (both, flat(&found.err))
 }
 
+/// Frequencies of the arm with its tool, Hz.
+fn modes(here: &Path, more: &str) -> Vec<f64> {
+    let line = format!("modes arm.toml --tool-length-mm 180 --json{more}");
+    let json: Value = serde_json::from_str(&said(here, &line).answered().out).expect("JSON");
+    let modes = json["modes"].as_array().expect("modes").iter();
+    let hz = modes.map(|mode| mode["frequency_hz"].as_f64().expect("a figure"));
+    hz.collect()
+}
+
 #[test]
 fn every_command_along_a_program_asks_what_becomes_of_own_weight() {
     let here = here(JOB, arm());
@@ -147,18 +156,11 @@ fn modes_take_the_mass_of_the_tool() {
     let carried = "mass_kg = 80\ncentre_of_mass_mm = [10, 0, 70]\n";
     let model = arm().replace(platform, &format!("{platform}{carried}"));
     let [carrying, bare] = [here(JOB, &model), here(JOB, arm())];
-    let of = |here: &Path, more: &str| {
-        let line = format!("modes arm.toml --tool-length-mm 180 --json{more}");
-        let json: Value = serde_json::from_str(&said(here, &line).answered().out).expect("JSON");
-        let modes = json["modes"].as_array().expect("modes").iter();
-        let hz = modes.map(|mode| mode["frequency_hz"].as_f64().expect("a figure"));
-        hz.collect::<Vec<f64>>()
-    };
     let stated = " --tool-mass-kg 80 --tool-centre-of-mass-mm 10 0 70";
     let [of_model, of_option, without] = [
-        of(carrying.path(), ""),
-        of(bare.path(), stated),
-        of(bare.path(), ""),
+        modes(carrying.path(), ""),
+        modes(bare.path(), stated),
+        modes(bare.path(), ""),
     ];
     assert_eq!(of_model.len(), 8);
     for (model, option) in of_model.iter().zip(&of_option) {
@@ -174,6 +176,59 @@ fn modes_take_the_mass_of_the_tool() {
     ] {
         let found = said(bare.path(), &format!("modes arm.toml{line}"));
         assert!(found.code == 1 && found.err.contains(word), "{found:?}");
+    }
+}
+
+/// Mass, centre and inertia of the tool are those of a body behind the last element of the chain.
+#[test]
+fn a_tool_is_a_body_on_the_last_element() {
+    let carried = "mass_kg = 80\ncentre_of_mass_mm = [10, 0, 70]\ninertia_kg_m2 = [[1.2, 0, -0.1], [0, 0.9, 0], [-0.1, 0, 0.5]]\n";
+    // The x axis of the chain's end is z of the flange, its z axis is -x.
+    let body = "  { body = \"spindle\", mass_kg = 80, centre_of_mass_mm = [70, 0, -10], inertia_kg_m2 = [[0.5, 0, 0.1], [0, 0.9, 0], [0.1, 0, 1.2]] },\n]\n\n[[limb]]";
+    let job = JOB.replace("[load]\n", "[load]\nweight = \"all\"\n");
+    let tool = "length_mm = 180\n";
+    let of_job = here(&job.replace(tool, &format!("{tool}{carried}")), arm());
+    let of_model = here(&job, &arm().replace("]\n\n[[limb]]", body));
+    let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-12 * a.abs(), "{a} {b}");
+    let [a, b] = [&of_job, &of_model].map(|here| deflected(here.path(), "").0);
+    near(a[0], b[0]);
+    near(a[1], b[1]);
+    let mass = " --tool-mass-kg 80 --tool-centre-of-mass-mm 10 0 70";
+    let inertia = " --tool-inertia-kg-m2 1.2 0.9 0.5 0 -0.1 0";
+    let by_body = modes(of_model.path(), "");
+    let by_option = modes(of_job.path(), &format!("{mass}{inertia}"));
+    for (a, b) in by_option.iter().zip(&by_body) {
+        near(*a, *b);
+    }
+    let as_point = modes(of_job.path(), mass);
+    assert!(
+        by_option[7] < 0.999 * as_point[7],
+        "{by_option:?} {as_point:?}"
+    );
+}
+
+#[test]
+fn faults_of_a_tool_with_mass_are_named_with_their_line() {
+    let cases = "\
+mass_kg = -1 => from 0.001 to 5000 kg
+mass_kg = 9 => the model states no gravity
+inertia_kg_m2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]] => an inertia and no mass
+mass_kg = 9; inertia_kg_m2 = [[1, 0, 0], [0, 1, 0], [0, 0, 3]] => cannot exceed the sum
+mass_kg = 9; inertia_kg_m2 = [[1, 2, 0], [0, 1, 0], [0, 0, 1]] => not symmetric
+mass_kg = 9; inertia_kg_m2 = [[1, 2, 0], [2, 1, 0], [0, 0, 1]] => negative about some axis";
+    for (written, words) in cases.lines().filter_map(|case| case.split_once(" => ")) {
+        let written = written.replace("; ", "\n");
+        let job = JOB.replace("length_mm = 180", &format!("length_mm = 180\n{written}"));
+        let model = match words.contains("gravity") {
+            true => include_str!("../../../kinetostat-model/models/orthoglide.toml"),
+            false => arm(),
+        };
+        let here = here(&job, model);
+        let found = said(here.path(), "deflect job.toml");
+        let line = 7 + written.lines().count();
+        let text = flat(&found.err);
+        assert!(found.code == 1 && text.contains(words), "{written}: {text}");
+        assert!(text.contains(&format!("job.toml:{line}:")), "{text}");
     }
 }
 

@@ -4,6 +4,7 @@ use kinetostat::model::Body;
 use kinetostat::number::short;
 use nalgebra::Matrix3;
 
+use crate::elements::part::inertia;
 use crate::plausibility::LimbCheck;
 use crate::plausibility::at_home::{farthest, reach};
 use crate::problem::{Finding, KeyPath};
@@ -28,6 +29,25 @@ pub(crate) fn no_body(place: &KeyPath, name: &str, inertia: &Matrix3<f64>) -> Op
         ),
         "check the entries, their unit and the signs of the products; statics does not use it, vibrations refuse it",
     ))
+}
+
+/// Inertia of a body about its centre of mass from its rows, kg m^2.
+///
+/// ```
+/// let flat = [[0.5, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 1.1]];
+/// let (message, _) = kinetostat_model::inertia_of_body(flat).unwrap_err();
+/// assert!(message.contains("the largest cannot exceed the sum of the others"));
+/// ```
+///
+/// # Errors
+/// The fault and what to do: rows that are not symmetric, moments below zero or beyond the sum of the others.
+pub fn inertia_of_body(rows: [[f64; 3]; 3]) -> Result<Matrix3<f64>, (String, String)> {
+    let place = KeyPath::root();
+    let read = inertia(&place, Some(rows)).and_then(|inertia| {
+        let fault = no_body(&place, "tool", &inertia);
+        fault.map_or(Ok(inertia), Err)
+    });
+    read.map_err(|found| (found.message, found.help))
 }
 
 /// An inertia without a mass: no body turns hard and weighs nothing.
