@@ -1,6 +1,7 @@
 //! Candidate explanations for the difference between measured and computed poses: a sign, an offset, a coupling, a frame.
 
 use kinetostat::Pose;
+use kinetostat::number::larger;
 use kinetostat::spatial::pose_residual;
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -147,6 +148,18 @@ pub struct Difference {
     pub distance: f64,
     /// Angle between the orientations, rad; `None` where no orientation was measured.
     pub angle: Option<f64>,
+}
+
+impl Difference {
+    /// The largest distance and the largest angle of several.
+    #[must_use]
+    pub fn largest(differences: &[Self]) -> Self {
+        let angles = differences.iter().filter_map(|d| d.angle);
+        Self {
+            distance: differences.iter().map(|d| d.distance).fold(0.0, larger),
+            angle: angles.fold(None, |most, a| Some(most.map_or(a, |most| larger(most, a)))),
+        }
+    }
 }
 
 /// Tolerance for equal poses, m and rad.

@@ -5,10 +5,12 @@
 //! three poses decide the usual cases, but not every set of three.
 
 mod controller_coordinates;
+mod corrected;
 mod explanation;
 mod search;
 
 pub use controller_coordinates::{ControllerCoordinates, ControllerPoseError};
+pub use corrected::{CorrectionError, corrected};
 pub use explanation::{
     Axis, Coupling, Difference, Explanation, Forward, Frame, MeasuredPose, Tolerance, difference,
 };

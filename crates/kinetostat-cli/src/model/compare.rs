@@ -54,14 +54,14 @@ struct JointMap {
 }
 
 #[derive(Serialize, JsonSchema)]
-struct FrameMap {
+pub(crate) struct FrameMap {
     position_mm: [f64; 3],
     rotation_vector_deg: [f64; 3],
 }
 
 impl FrameMap {
-    fn new(pose: &Pose) -> Self {
-        let clean = |x: f64| if x.abs() < 1e-9 { 0.0 } else { x };
+    pub(crate) fn new(pose: &Pose) -> Self {
+        let clean = |x: f64| (x * 1e9).round() / 1e9 + 0.0;
         Self {
             position_mm: (pose.translation.vector * 1e3).map(clean).into(),
             rotation_vector_deg: pose
@@ -73,7 +73,7 @@ impl FrameMap {
         }
     }
 
-    fn description(&self) -> String {
+    pub(crate) fn description(&self) -> String {
         let clean = |x: f64| short(if x.abs() < 1e-4 { 0.0 } else { x });
         let still = |v: &[f64; 3]| v.iter().all(|x| x.abs() < 1e-4);
         match (still(&self.position_mm), still(&self.rotation_vector_deg)) {

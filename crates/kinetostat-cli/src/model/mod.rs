@@ -3,7 +3,7 @@
 //! It takes the names of models and gives lists, text, a drawing, or the constant offsets between two of them.
 
 pub(crate) mod arguments;
-mod compare;
+pub(crate) mod compare;
 mod draw;
 
 use kinetostat_diagnostic::ErrorCode;

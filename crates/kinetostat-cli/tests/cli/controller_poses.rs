@@ -4,7 +4,8 @@
 use crate::common::{Said, run, workplace};
 use crate::controller::{CONTROLLER, NAMES, POSES, model, plain, tool};
 use nalgebra::{Isometry3, vector};
-use serde_json::Value;
+use serde_json::Value as Json;
+use toml::{Table, Value};
 
 /// A table of the poses: `shown` says what the controller shows, `seen` where the tool is measured.
 fn table(
@@ -36,7 +37,7 @@ fn same(pose: Isometry3<f64>) -> Isometry3<f64> {
 }
 
 /// Runs `check --pose` on a model and a table.
-fn compared(model: &str, table: &str) -> (Said, Value) {
+fn compared(model: &str, table: &str) -> (Said, Json) {
     let here = workplace();
     std::fs::write(here.path().join("arm.toml"), model).expect("written");
     std::fs::write(here.path().join("poses.csv"), table).expect("written");
@@ -49,7 +50,7 @@ fn compared(model: &str, table: &str) -> (Said, Value) {
     (said, json)
 }
 
-fn explanations(json: &Value) -> Vec<String> {
+fn explanations(json: &Json) -> Vec<String> {
     let list = json["explanations"].as_array().expect("a list");
     list.iter()
         .map(|e| e.as_str().expect("words").to_owned())
@@ -221,6 +222,180 @@ fn what_the_poses_do_not_decide_is_reported_so() {
         said.err.contains("Lengths of the links may differ"),
         "{}",
         said.err
+    );
+}
+
+/// A model with printed tables pasted into it: keys of a table replace those of the table with its name.
+fn pasted(model: &str, tables: &str) -> String {
+    let mut whole: Table = model.parse().expect("a model");
+    let new: Table = tables.parse().expect("TOML");
+    for (key, value) in new {
+        match value {
+            Value::Array(rows) => {
+                let old = whole[&key].as_array_mut().expect("tables");
+                for row in &rows {
+                    let own = old.iter_mut().find(|r| r["name"] == row["name"]);
+                    let own = own.expect("a table of this name").as_table_mut();
+                    own.expect("a table")
+                        .extend(row.as_table().expect("a table").clone());
+                }
+            }
+            Value::Table(keys) if key == "mechanism" => {
+                whole[&key].as_table_mut().expect("a table").extend(keys);
+            }
+            value => {
+                whole.insert(key, value);
+            }
+        }
+    }
+    whole.to_string()
+}
+
+/// Compares, pastes what is printed and compares again.
+fn agrees_with_its_tables(model: &str, table: &str) -> (Said, Json) {
+    let (said, json) = compared(model, table);
+    assert_eq!(json["agrees"], false, "{}", said.err);
+    let tables = &json["tables"];
+    let text = tables["toml"].as_str().expect("tables");
+    assert!(said.err.contains(text), "{}", said.err);
+    assert!(
+        tables["difference_mm"].as_f64().expect("mm") < 1e-3,
+        "{tables}"
+    );
+    let (again, after) = compared(&pasted(model, text), table);
+    assert_eq!(after["agrees"], true, "{text}{}", again.err);
+    (said, json)
+}
+
+#[test]
+fn pasted_tables_make_the_poses_agree() {
+    let axes = ["J1", "J2", "J3", "J4", "J5", "J6"];
+    let flange = Isometry3::new(vector![0.0, 20.0, 180.0], vector![0.0, -1.2, 0.5]);
+    let base = Isometry3::new(vector![100.0, -50.0, 300.0], vector![0.0, 0.2, 0.4]);
+    // Signs, zeros and a tool at once.
+    let shown = |q: [f64; 6]| [-q[0], q[1] - 90.0, q[2] + 90.0, -q[3], q[4], -q[5]];
+    let arm = model(plain, "");
+    let poses = table(NAMES, shown, |pose| pose * flange);
+    let (_, json) = agrees_with_its_tables(&arm, &poses);
+    let tables = &json["tables"];
+    assert_eq!(tables["poses"], 3);
+    assert_eq!(tables["controller"]["axis"][1]["zero_offset_deg"], -90.0);
+    assert_eq!(tables["controller"]["axis"][3]["reversed"], true);
+    assert_eq!(
+        tables["tool_in_flange"]["position_mm"],
+        serde_json::json!([0.0, 20.0, 180.0])
+    );
+    // A coupling of the wrong sign and a sign, in a declared controller.
+    let wrong = CONTROLLER.replace("ratio = -1", "ratio = 1");
+    let shown = |q: [f64; 6]| [q[0], q[1], q[2] - q[1], q[3], q[4], q[5]];
+    let (_, json) = agrees_with_its_tables(&model(plain, &wrong), &table(axes, shown, same));
+    let coupled = &json["tables"]["controller"]["axis"][2]["coupled"][0];
+    assert_eq!(
+        (&coupled["joint"], &coupled["ratio"]),
+        (&"joint_2".into(), &(-1.0).into())
+    );
+    // Any zero, and a base whose axes are others: gravity is turned with it.
+    let shown = |q: [f64; 6]| [q[0], q[1], q[2] + 3.7, q[3], q[4], q[5]];
+    agrees_with_its_tables(&arm, &table(NAMES, shown, same));
+    let heavy = arm.replace(
+        "name = \"arm\"\n[[platform]]\n",
+        "name = \"arm\"\ngravity_m_per_s2 = [0, 0, -9.81]\n[[platform]]\nmass_kg = 5\n",
+    );
+    let (_, json) = agrees_with_its_tables(&heavy, &table(NAMES, |q| q, |pose| base * pose));
+    let down = base.rotation * vector![0.0, 0.0, -9.81];
+    let text = json["tables"]["toml"].as_str().expect("tables");
+    let gravity = text.parse::<Table>().expect("TOML")["mechanism"]["gravity_m_per_s2"].clone();
+    for (i, g) in gravity.as_array().expect("three").iter().enumerate() {
+        assert!(
+            (g.as_float().expect("a number") - down[i]).abs() < 1e-6,
+            "{text}"
+        );
+    }
+}
+
+/// A preset as another controller counts it, with a tool, measured along the program's own kinematics.
+#[test]
+fn a_preset_becomes_the_machine_of_its_poses() {
+    let here = workplace();
+    let arm = include_str!("../../../kinetostat-model/models/kuka_kr270_like.toml");
+    let tool = Isometry3::new(vector![20.0, -5.0, 230.0], vector![0.0, 0.0, 0.8]);
+    let mut text = "A1,A2,A3,A4,A5,A6,x_mm,y_mm,z_mm,rotation_vector_deg\n".to_owned();
+    for [a, b, c, d, e, f] in [
+        [12.0, -75.0, 80.0, 41.0, -52.0, 63.0],
+        [-37.0, -100.0, 110.0, -64.0, 35.0, -81.0],
+        [71.0, -60.0, 95.0, 27.0, 66.0, 19.0],
+    ] {
+        let joints = format!("A1={a},A2={b},A3={c},A4={d},A5={e},A6={f}");
+        let line = [
+            "stiffness",
+            "kuka_kr270_like",
+            "--json",
+            "--joints",
+            &joints,
+        ];
+        let said = run(here.path(), &line).answered();
+        let json: Json = serde_json::from_str(&said.out).expect("JSON");
+        let [p, turn] = ["position_mm", "rotation_vector_deg"].map(|key| {
+            let list = &json["place"][key];
+            vector![0, 1, 2].map(|i: usize| list[i].as_f64().expect("a number"))
+        });
+        let seen = Isometry3::new(p, turn.map(f64::to_radians)) * tool;
+        let (p, turn) = (
+            seen.translation.vector,
+            seen.rotation.scaled_axis().map(f64::to_degrees),
+        );
+        text.push_str(&format!(
+            "{},{},{},{},{e},{},{},{},{},{} {} {}\n",
+            -a,
+            b + 90.0,
+            c - 90.0,
+            -d,
+            -f,
+            p.x,
+            p.y,
+            p.z,
+            turn.x,
+            turn.y,
+            turn.z
+        ));
+    }
+    agrees_with_its_tables(arm, &text);
+}
+
+#[test]
+fn what_measured_poses_cannot_tell_is_said_beside_the_tables() {
+    // The second joint rests, and no orientation was measured.
+    let shown = |q: [f64; 6]| [q[0], q[1], q[2] - 90.0, q[3], q[4], q[5]];
+    let poses = table(NAMES, shown, same);
+    let bare: String = poses
+        .lines()
+        .map(|line| line.rsplit_once(',').expect("cells").0.to_owned() + "\n")
+        .collect();
+    let (said, json) = compared(&model(plain, ""), &bare);
+    let undecided = json["tables"]["undecided"].to_string();
+    assert!(
+        undecided.contains("no orientation was measured"),
+        "{}",
+        said.err
+    );
+    let one = poses.lines().take(2).collect::<Vec<_>>().join("\n");
+    let (said, json) = compared(&model(plain, ""), &one);
+    let undecided = json["tables"]["undecided"].to_string();
+    for words in [
+        "joint_2 has one value in all poses",
+        "an offset of the tool and one of the base are the same",
+    ] {
+        assert!(undecided.contains(words), "{words}: {}", said.err);
+    }
+    // Deviations at the flange are stated in its frame.
+    let deviation = "[[deviation]]\nlimb = \"arm\"\nat = \"end\"\nmoved_by = { translation_mm = [0.1, 0, 0] }\n";
+    let flange = Isometry3::new(vector![0.0, 20.0, 180.0], vector![0.0, -1.2, 0.5]);
+    let poses = table(NAMES, |q| q, |pose| pose * flange);
+    let (said, json) = compared(&model(plain, deviation), &poses);
+    assert!(json["tables"].is_null(), "{}", said.err);
+    assert_eq!(
+        json["tables_missing"],
+        "the model has deviations, stated in a frame that changes"
     );
 }
 

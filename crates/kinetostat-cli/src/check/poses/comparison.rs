@@ -2,23 +2,23 @@
 
 use std::path::Path;
 
-use kinetostat::number::larger;
-use kinetostat::{MotionKind, Pose};
+use kinetostat::MotionKind;
 use kinetostat_analysis::measured_poses::{
     Axis, ControllerCoordinates, Coupling, Difference, Explained, Explanation, Frame, MeasuredPose,
     Tolerance, difference, explain, remaining_differences,
 };
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_model::Model;
-use nalgebra::UnitQuaternion;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::check::poses::pose_row::PoseRow;
+use crate::check::poses::tables::{PoseTables, pose_tables};
 use crate::machine::units::unit;
+use crate::model::compare::FrameMap;
 use crate::place::joints::{self, Named};
 use crate::ui::failure::{Answer, Failing};
-use crate::ui::numbers::{fixed, short, triple};
+use crate::ui::numbers::short;
 
 /// The answer, stable names with units.
 #[derive(Serialize, JsonSchema)]
@@ -37,6 +37,10 @@ pub(crate) struct PoseComparison {
     /// Simplest explanations of the differences within the tolerance; several are equally good.
     pub(crate) explanations: Vec<String>,
     pub(crate) ambiguous: bool,
+    /// Tables of the model file for the first explanation.
+    pub(crate) tables: Option<PoseTables>,
+    /// Reason why that explanation is not written as tables.
+    pub(crate) tables_missing: Option<String>,
     /// Nearest explanation if nothing explains them, and the largest differences that it leaves.
     pub(crate) nearest: Option<Nearest>,
 }
@@ -113,7 +117,14 @@ pub(crate) fn compare(
             .map(|e| words.of(e, true))
             .collect(),
     };
+    let first = explained.fitting.first().filter(|_| !agrees);
+    let tables = first.map(|e| pose_tables(model, names, &measured, e));
     Ok(PoseComparison {
+        tables_missing: match &tables {
+            Some(Err(error)) => Some(error.to_string()),
+            _ => None,
+        },
+        tables: tables.and_then(Result::ok),
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model: model.name().to_owned(),
@@ -162,25 +173,18 @@ fn nearest(
     if *explanation == Explanation::default() {
         return None;
     }
-    let (distance, angle) = largest(differences);
+    let most = Difference::largest(differences);
     let forward = |shown: &[f64]| controller.tool(shown);
     let unexplained = Explanation::default();
     let before = remaining_differences(&forward, measured, words.axes, &unexplained)?;
-    if distance > 0.5 * largest(&before).0 {
+    if most.distance > 0.5 * Difference::largest(&before).distance {
         return None;
     }
     Some(Nearest {
         in_words: words.of(explanation, false),
-        difference_mm: distance * 1e3,
-        difference_deg: angle.map(f64::to_degrees),
+        difference_mm: most.distance * 1e3,
+        difference_deg: most.angle.map(f64::to_degrees),
     })
-}
-
-fn largest(differences: &[Difference]) -> (f64, Option<f64>) {
-    let distance = differences.iter().map(|d| d.distance).fold(0.0, larger);
-    let angles = differences.iter().filter_map(|d| d.angle);
-    let angle = angles.fold(None, |most, a| Some(most.map_or(a, |most| larger(most, a))));
-    (distance, angle)
 }
 
 /// Data for the words of an explanation: the axes, their values in the file, and their joints in the model.
@@ -215,16 +219,16 @@ impl ExplanationText<'_> {
         }
         parts.extend(e.coupling.map(|c| self.coupling(e, c, advice)));
         match &e.frame {
-        Some(Frame::Base(pose)) => parts.push(format!(
-            "the base frame is another one: the model's base is at {}",
-            place(pose)
-        )),
-        Some(Frame::Tool(pose)) => parts.push(format!(
-            "the tool frame is another one: the measured one is, in the model's tool frame, at {}",
-            place(pose)
-        )),
-        None => {}
-    }
+            Some(Frame::Base(pose)) => parts.push(format!(
+                "the base frame is another one: the model's base is {}",
+                FrameMap::new(pose).description()
+            )),
+            Some(Frame::Tool(pose)) => parts.push(format!(
+                "the tool frame is another one: the measured one is, in the model's tool frame, {}",
+                FrameMap::new(pose).description()
+            )),
+            None => {}
+        }
         let text = parts.join("; ");
         if advice && !e.reversed.is_empty() && e.offsets.is_empty() && e.coupling.is_none() {
             return format!("{text} (change 'reversed' of it in the section [controller])");
@@ -301,17 +305,4 @@ impl ExplanationText<'_> {
             }
         }
     }
-}
-
-fn place(pose: &Pose) -> String {
-    let clean = |x: f64| short(if x.abs() < 1e-6 { 0.0 } else { x });
-    let position = triple((pose.translation.vector * 1e3).into(), clean);
-    let turn = pose.rotation.scaled_axis().map(f64::to_degrees);
-    if UnitQuaternion::angle(&pose.rotation) < 1e-6 {
-        return format!("{position} mm, parallel");
-    }
-    format!(
-        "{position} mm, turned by the rotation vector {} deg",
-        triple(turn.into(), |x| fixed(x, 3))
-    )
 }

@@ -6,6 +6,7 @@
 mod comparison;
 mod csv_file;
 mod pose_row;
+mod tables;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -143,6 +144,26 @@ fn result_text(a: &PoseComparison) -> String {
             0,
         );
     }
+    let mut out = explanations_text(a, &within);
+    if let Some(reason) = &a.tables_missing {
+        out.push_str(&wrapped(
+            &format!("It is not written as tables of the model file: {reason}."),
+            0,
+        ));
+    }
+    if let Some(tables) = &a.tables {
+        out.extend(tables.undecided.iter().map(|text| item(text)));
+        out.push_str(match a.ambiguous {
+            true => "\nTables for the model file, for the first of them:\n\n",
+            false => "\nTables for the model file:\n\n",
+        });
+        out.push_str(&tables.toml);
+    }
+    out
+}
+
+/// The explanations, or the nearest one.
+fn explanations_text(a: &PoseComparison, within: &str) -> String {
     let mut out = String::new();
     match a.explanations.as_slice() {
         [] => {
