@@ -38,6 +38,10 @@ pub(crate) struct UrdfArgs {
     /// Link that carries the tool; needed where the tree has several ends
     #[arg(long, value_name = "LINK")]
     pub(crate) tip: Option<String>,
+    /// Axis of the tip link that points out of the flange, where tools lie: x of `flange` in ROS, z of
+    /// `tool0`; without it, the frame of the tip is taken as it is
+    #[arg(long, value_name = "AXIS", value_parser = ["x", "y", "z"])]
+    pub(crate) flange_z: Option<String>,
     /// Closed loops (TOML): what the proposed `constraint` element of a URDF says
     #[arg(long, value_name = "FILE")]
     pub(crate) loops: Option<PathBuf>,

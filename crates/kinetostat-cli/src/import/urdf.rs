@@ -8,6 +8,7 @@ use kinetostat_diagnostic::ErrorCode;
 use kinetostat_import::{
     Imported, JointStiffness, LoopFile, UrdfOptions, import_urdf, read_section,
 };
+use kinetostat_model::schema::AxisName;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -138,6 +139,11 @@ fn options(args: &UrdfArgs, inputs: &mut Vec<std::path::PathBuf>) -> Answer<Urdf
         let mut options = UrdfOptions::default();
         options.base = args.base.clone();
         options.tip = args.tip.clone();
+        options.flange_z = args.flange_z.as_deref().map(|axis| match axis {
+            "x" => AxisName::X,
+            "y" => AxisName::Y,
+            _ => AxisName::Z,
+        });
         options.loops = loops;
         options.passive = args.passive.clone();
         options.home = home;

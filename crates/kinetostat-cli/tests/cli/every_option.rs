@@ -56,7 +56,7 @@ const WITHOUT_A_LINE: [&str; 5] = ["completions", "explain", "help", "man", "sch
 
 /// Options that may change nothing, of one command or of all: leave to overwrite and to begin anew, speed, bounds that are kept
 /// here, and facts of machine and program that this program does not need.
-const MAY_BE_IDLE: [(&str, &str); 29] = [
+const MAY_BE_IDLE: [(&str, &str); 30] = [
     ("", "force-overwrite"),
     ("", "restart"),
     ("", "threads"),
@@ -87,6 +87,7 @@ const MAY_BE_IDLE: [(&str, &str); 29] = [
     ("mirror", "units"),
     // It is so without it, too.
     ("lobes", "climb"),
+    ("import", "flange-z"),
 ];
 
 /// Measured displacements of `heavy_6r`, with one that does not fit.

@@ -12,6 +12,7 @@ use crate::stiffness;
 use crate::stiffness::{JointStiffness, Stiffnesses};
 use crate::urdf::chain::{Plan, Variable, Written, unique};
 use crate::urdf::close::frames;
+use crate::urdf::flange::{remark_flange, tip_in_tool, tool_frame};
 use crate::urdf::graph::{Graph, LinkPath, graph};
 use crate::urdf::loops::{Loops, UrdfOptions};
 use crate::urdf::remarks::{
@@ -83,7 +84,7 @@ pub fn import_urdf(urdf: &str, file: &str, options: &UrdfOptions) -> Result<Impo
         .collect();
     let paths = home.graph.paths.iter();
     let chains: Vec<Written> = paths.map(|path| plan.chain(path, &mut placed)).collect();
-    remark(&plan, &home, &chains, &placed, &mut log)?;
+    remark(options, &plan, &home, &chains, &placed, &mut log)?;
     let lists = Lists::of(&chains);
     if !lists.rigid_drives.is_empty() {
         log.notice(
@@ -191,6 +192,7 @@ impl AtHome {
 
 /// Remarks on the robot, gravest first: elements that no model can represent are errors.
 fn remark(
+    options: &UrdfOptions,
     plan: &Plan<'_>,
     home: &AtHome,
     chains: &[Written],
@@ -209,6 +211,9 @@ fn remark(
         .collect();
     look_at_masses(robot, &moving, reach, log);
     standing(robot, &home.tree, &home.variables, &home.values, log);
+    if options.flange_z.is_none() {
+        remark_flange(robot, home.tip, log);
+    }
     let between = |w: &LinkPath| w.from != home.base || w.to != home.tip;
     if graph.paths.len() > 1 && graph.paths.iter().any(between) {
         several_platforms(robot, graph, log);
@@ -238,6 +243,7 @@ fn model_text(
         .collect();
     let gravity = (home.frames[home.tree.root].rotation * Vector3::new(0.0, 0.0, -9.81))
         .map(|x| if x.abs() < 1e-12 { 0.0 } else { x });
+    let tip = options.flange_z.and_then(tip_in_tool);
     let one = chains.len() == 1;
     let mut limb_names = BTreeSet::new();
     let limbs = graph
@@ -262,8 +268,13 @@ fn model_text(
         platforms: graph
             .platforms
             .iter()
-            .map(|l| (named[l].clone(), home.frames[*l]))
+            .map(|l| {
+                let turn = tip.as_ref().filter(|_| *l == home.tip);
+                let own = home.frames[*l];
+                (named[l].clone(), turn.map_or(own, |t| tool_frame(&own, t)))
+            })
             .collect(),
+        tip_in_tool: tip.as_ref().map(|turn| (named[&home.tip].as_str(), turn)),
         section: options.section.as_ref().map(|s| (SECTION, s)),
         limbs,
         rigid_drives: !lists.rigid_drives.is_empty(),

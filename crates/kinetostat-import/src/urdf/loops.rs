@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use kinetostat::MotionKind;
-use kinetostat_model::schema::Section;
+use kinetostat_model::schema::{AxisName, Section};
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
@@ -182,6 +182,9 @@ pub struct UrdfOptions {
     pub base: Option<String>,
     /// Link that carries the tool; needed unless only one link ends the tree.
     pub tip: Option<String>,
+    /// Axis of the tip link that points out of the flange and becomes z of the tool frame; the frame of the
+    /// link if not given.
+    pub flange_z: Option<AxisName>,
     /// Closed loops.
     pub loops: Option<LoopFile>,
     /// Joints that nothing drives, besides those of the loop file.

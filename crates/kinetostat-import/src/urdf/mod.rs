@@ -3,6 +3,7 @@
 
 mod chain;
 mod close;
+mod flange;
 mod graph;
 mod import;
 mod loops;

@@ -18,6 +18,8 @@ pub(crate) struct Parts<'a> {
     pub(crate) gravity: [f64; 3],
     /// Name and pose at home.
     pub(crate) platforms: Vec<(String, Pose)>,
+    /// Platform of the tool and frame of the tip link in it, where the frames differ.
+    pub(crate) tip_in_tool: Option<(&'a str, &'a Placement)>,
     pub(crate) section: Option<(&'a str, &'a Section)>,
     /// Name, from, to, lines.
     pub(crate) limbs: Vec<(String, String, String, Vec<Line>)>,
@@ -140,6 +142,11 @@ pub(crate) fn text(parts: &Parts<'_>) -> Result<String, toml::ser::Error> {
         let _ = writeln!(out, "from = {}", value(from)?);
         let _ = writeln!(out, "to = {}", value(to)?);
         let _ = writeln!(out, "chain = {}", value(name)?);
+        for (key, platform) in [("start", from), ("end", to)] {
+            if let Some((_, turn)) = parts.tip_in_tool.filter(|(tool, _)| tool == platform) {
+                let _ = writeln!(out, "{key} = {}", value(turn)?);
+            }
+        }
     }
     Ok(out)
 }

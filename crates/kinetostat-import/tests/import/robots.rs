@@ -1,7 +1,9 @@
 //! The eight robots of ../shared/data/urdf.
 
+use kinetostat::PostureRequest;
 use kinetostat_import::{Imported, JointStiffness, UrdfOptions, import_urdf, read_text};
 use kinetostat_model::Model;
+use kinetostat_model::schema::AxisName;
 use kinetostat_testing::Worst;
 
 use crate::agreement::{side_branches, with_oracle, with_pinocchio};
@@ -61,6 +63,57 @@ fn all_of_them_import_and_load_again() {
         // What was written can be written again by the model crate, and says the same.
         let again = Model::from_toml(&model.to_toml().unwrap(), "twice.toml").unwrap();
         assert_eq!(again.document, model.document, "{name}");
+    }
+}
+
+/// x of `flange` and z of `tool0` point out in ROS: with its axis named, the flange is the tool frame of `tool0`.
+#[test]
+fn a_flange_whose_x_axis_points_out_becomes_the_frame_of_tool0() {
+    for name in ["fanuc_m900ib700", "fanuc_r1000ia80f", "kuka_kr150r3100_2"] {
+        let Some((text, by_tool0)) = robot(name, UrdfOptions::default()) else {
+            return;
+        };
+        assert!(!notices(&by_tool0).contains("--flange-z"), "{name}");
+        let of_flange = |axis: Option<AxisName>| {
+            let mut options = UrdfOptions::default();
+            options.base = Some("base_link".into());
+            options.tip = Some("flange".into());
+            options.flange_z = axis;
+            import_urdf(&text, name, &options).unwrap_or_else(|e| panic!("{e}"))
+        };
+        let tool = |imported: &Imported| {
+            let joints = PostureRequest::commands(&[0.1, -0.2, 0.3, 0.4, 0.5, 0.6]);
+            *imported.model.mechanism.posture(joints).unwrap().target()
+        };
+        let plain = of_flange(None);
+        assert!(notices(&plain).contains("--flange-z x"), "{name}");
+        let turned = of_flange(Some(AxisName::X));
+        assert!(!notices(&turned).contains("--flange-z"), "{name}");
+        // FANUC's tool0 is turned about z.
+        let between = tool(&by_tool0).inverse() * tool(&turned);
+        let z = between.rotation * nalgebra::Vector3::z();
+        let same = name.starts_with("fanuc") || between.rotation.angle() < 1e-9;
+        assert!(same && (z.z - 1.0).abs() < 1e-12, "{name}: {between}");
+        assert!(
+            between.translation.vector.norm() < 1e-9,
+            "{name}: {between}"
+        );
+        // z is the frame of the link as it is; every other axis becomes z.
+        let named = of_flange(Some(AxisName::Z));
+        assert_eq!(named.toml, plain.toml);
+        let unit = nalgebra::Vector3::ith;
+        for (axis, own) in [
+            (AxisName::Y, unit(1, 1.0)),
+            (AxisName::MinusX, unit(0, -1.0)),
+            (AxisName::MinusY, unit(1, -1.0)),
+            (AxisName::MinusZ, unit(2, -1.0)),
+        ] {
+            let z = tool(&of_flange(Some(axis))).rotation * unit(2, 1.0);
+            assert!(
+                (z - tool(&plain).rotation * own).norm() < 1e-9,
+                "{name} {axis:?}"
+            );
+        }
     }
 }
 
