@@ -19,7 +19,9 @@ pub(crate) enum Change {
         less: Mechanism,
         step: f64,
     },
-    /// Not at all: a drive that friction holds back. They stand behind all others, in the order of the drives.
+    /// Not at all: the place of a marker on the tool, by its number and component.
+    Marker(usize, usize),
+    /// Not at all: a drive that friction holds back. They follow all numbers of the model, in the order of the drives.
     Friction,
 }
 
@@ -64,7 +66,7 @@ impl Unknowns {
     ) -> Result<Vec<Change>, IdentificationError> {
         let own = self.in_file(values);
         let mut by_number = Vec::with_capacity(own.len());
-        let of_model = self.list.iter().filter(|u| u.form != Form::Friction);
+        let of_model = self.list.iter().filter(|u| u.form.is_of_model());
         for (i, unknown) in of_model.enumerate() {
             // The springs are linear in the number, so that a large step is exact.
             let step = match unknown.form {
@@ -73,7 +75,7 @@ impl Unknowns {
                     1e-3 * stiffness_size(&self.list, i, row, column) / unknown.parameter.in_si
                 }
                 Form::Parallel => 0.5 * own[i],
-                Form::Value | Form::Friction => 1e-2 * unknown.size / unknown.parameter.in_si,
+                _ => 1e-2 * unknown.size / unknown.parameter.in_si,
             };
             let at = |sign: f64| {
                 let mut moved = own.clone();
@@ -83,8 +85,8 @@ impl Unknowns {
             let (more, less) = (at(1.0)?, at(-1.0)?);
             let double = 2.0 * step * unknown.parameter.in_si;
             let springs = match unknown.form {
-                Form::Value | Form::Parallel | Form::Friction => Vec::new(),
-                _ => difference(&more, &less, double),
+                Form::Compliance | Form::MatrixEntry(..) => difference(&more, &less, double),
+                _ => Vec::new(),
             };
             by_number.push(match springs.is_empty() {
                 true => Change::Machine {
@@ -96,7 +98,11 @@ impl Unknowns {
             });
         }
         let mut out = self.by_compliance(values, by_number);
-        out.resize_with(self.list.len(), || Change::Friction);
+        let behind = self.list.iter().skip(out.len());
+        out.extend(behind.map(|unknown| match unknown.form {
+            Form::Marker(marker, k) => Change::Marker(marker, k),
+            _ => Change::Friction,
+        }));
         Ok(out)
     }
 

@@ -59,6 +59,24 @@ pub enum IdentificationError {
         /// Path of the number.
         path: String,
     },
+    /// Places under small loads.
+    #[error(
+        "posture '{posture}': the place of a marker depends on the weights; leave out the restriction to small loads"
+    )]
+    PlacesNeedLoads {
+        /// Name of the posture.
+        posture: String,
+    },
+    /// A body of a limb without an element at which the file could state its error.
+    #[error(
+        "limb '{limb}': no rigid element or link in front of '{joint}' has a name, so that the model cannot state an error of the geometry there; give one a name, or add one with an offset of zero"
+    )]
+    NoPlace {
+        /// Name of the limb.
+        limb: String,
+        /// The joint behind the body.
+        joint: String,
+    },
     /// The constrained least squares have no solution.
     #[error(transparent)]
     Constraints(#[from] crate::cone::NotSolved),

@@ -1,4 +1,4 @@
-//! What was done and read: a posture, a load on the tool, and displacements of points of the tool.
+//! What was done and read: a posture, a load on the tool, and displacements or places of points of the tool.
 
 use nalgebra::Vector3;
 
@@ -20,9 +20,11 @@ pub enum ReadingOf {
     Along(Vector3<f64>),
     /// Turn of the tool about a unit vector (base axes), rad.
     About(Vector3<f64>),
+    /// Place of the marker along a unit vector (base axes), from the origin of the base, m: under the load, not by it.
+    Place(Vector3<f64>),
 }
 
-/// One number that was read: the state under the load less that without it.
+/// One number that was read: the state under the load less that without it, or, for a place, the state itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
     /// Quantity.
@@ -72,6 +74,11 @@ impl TestLoad {
 }
 
 impl Reading {
+    /// True for a place, false for what a load changed.
+    pub(crate) fn is_place(&self) -> bool {
+        matches!(self.of, ReadingOf::Place(_))
+    }
+
     /// Three readings of a marker's displacement, each with the same standard deviation.
     #[must_use]
     pub fn displacement(
@@ -83,6 +90,17 @@ impl Reading {
             of: ReadingOf::Along(Vector3::ith(k, 1.0)),
             marker,
             value: displacement[k],
+            deviation,
+        })
+    }
+
+    /// Three readings of a marker's place, each with the same standard deviation; `marker` is its nominal place in the tool's frame.
+    #[must_use]
+    pub fn place(marker: Vector3<f64>, place: &Vector3<f64>, deviation: f64) -> [Self; 3] {
+        [0, 1, 2].map(|k| Self {
+            of: ReadingOf::Place(Vector3::ith(k, 1.0)),
+            marker,
+            value: place[k],
             deviation,
         })
     }

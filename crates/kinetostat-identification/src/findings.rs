@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use crate::experiment::{Observation, Reading, ReadingOf, by_posture};
 use crate::fit::Fit;
+use crate::geometry::is_geometry;
 use crate::identifiability::Knowledge;
 use crate::identified::{IdentifiedNumber, PostureResiduals};
 use crate::least_squares::{LinearFit, SCATTER};
@@ -23,6 +24,13 @@ pub enum Finding {
         number: String,
         /// The combination that is seen, if it takes part in one.
         known: Option<String>,
+    },
+    /// Readings of places do not decide every number of the geometry.
+    Geometry {
+        /// Errors of the geometry and places of markers.
+        numbers: usize,
+        /// Combinations of them that are free.
+        directions: usize,
     },
     /// Noise hides a number.
     Weak {
@@ -93,6 +101,13 @@ impl fmt::Display for Finding {
                     "{number}: not seen alone, only in {known}; its own value is the one nearest to the model"
                 )
             }
+            Self::Geometry {
+                numbers,
+                directions,
+            } => write!(
+                f,
+                "the places decide {directions} combinations of the {numbers} numbers of the geometry; all others keep the values of the model, so that a number by itself says nothing, but all together say where the tool is"
+            ),
             Self::Weak {
                 number,
                 deviation_percent,
@@ -149,7 +164,8 @@ pub(crate) fn findings(
     fit: &LinearFit,
 ) -> Vec<Finding> {
     let mut out = Vec::new();
-    for number in numbers {
+    // Numbers of the geometry have one finding together.
+    for number in numbers.iter().filter(|n| !is_geometry(&n.number)) {
         let name = || number.number.clone();
         match (
             number.knowledge,

@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::error::IdentificationError;
 use crate::experiment::{Observation, by_posture};
+use crate::gauge::Gauge;
 use crate::least_squares::{HUBER, LinearFit, PostureRows, Start, fit};
 use crate::prediction::{Prediction, Theory, predict};
 use crate::unknown::Unknowns;
@@ -33,10 +34,12 @@ pub struct Fit {
     pub names: Vec<String>,
     /// Readings of the model as it was, less what was read, in standard deviations, posture by posture.
     pub before: Vec<DVector<f64>>,
-    /// The readings themselves, in standard deviations, posture by posture.
+    /// The readings themselves, in standard deviations, posture by posture; of a place the distance from where the model as it was has it.
     pub readings: Vec<DVector<f64>>,
     /// Steps.
     pub steps: usize,
+    /// Directions of the geometry that are free; none where no place was read, or nothing of the geometry is asked for.
+    pub gauge: Option<Gauge>,
 }
 
 /// Most steps of the fit; four are usual.
@@ -70,8 +73,16 @@ pub fn identify(
         sizes: &sizes,
         constraints: &constraints,
     };
+    let gauge = match options.theory {
+        Theory::Loaded => Gauge::of(unknowns, observations)?,
+        Theory::SmallLoads => None,
+    };
     let rows_at = |values: &DVector<f64>| -> Result<Vec<PostureRows>, IdentificationError> {
-        let predictions = predict(unknowns, values, observations, options.theory)?;
+        let mut predictions = predict(unknowns, values, observations, options.theory)?;
+        if let Some(gauge) = &gauge {
+            let derivatives = predictions.iter_mut().map(|p| &mut p.derivatives);
+            derivatives.for_each(|own| gauge.restrict(own));
+        }
         let own = groups.iter();
         Ok(own
             .map(|(_, members)| rows(members, observations, &predictions, values))
@@ -89,6 +100,9 @@ pub fn identify(
     for steps in 1..=MOST_STEPS {
         let with_prior: Vec<PostureRows> = postures.iter().chain(prior.as_ref()).cloned().collect();
         let mut linear = fit(&with_prior, &start, options.robust)?;
+        if let Some(gauge) = gauge.as_ref().filter(|_| prior.is_none()) {
+            gauge.hold(&mut linear, &nominal);
+        }
         let next = unknowns.buildable(&linear.estimate);
         change = (&next - &values).component_div(&sizes).amax();
         let step = &next - &values;
@@ -99,15 +113,18 @@ pub fn identify(
             linear.estimate = next;
             let readings = groups
                 .iter()
-                .map(|(_, members)| readings(members, observations));
+                .zip(&before)
+                .map(|((_, members), before)| readings(members, observations, before))
+                .collect();
             return Ok(Fit {
                 linear,
                 postures,
                 prior,
                 names: groups.iter().map(|(name, _)| (*name).to_owned()).collect(),
                 before,
-                readings: readings.collect(),
+                readings,
                 steps,
+                gauge,
             });
         }
         (values, postures) = downhill(&values, &next, &postures, &rows_at, &misfit)?;
@@ -171,10 +188,19 @@ fn belief(nominal: &DVector<f64>, sizes: &DVector<f64>, share: f64) -> PostureRo
 }
 
 /// The readings of one posture, in standard deviations.
-fn readings(members: &[usize], observations: &[Observation]) -> DVector<f64> {
+fn readings(
+    members: &[usize],
+    observations: &[Observation],
+    before: &DVector<f64>,
+) -> DVector<f64> {
     let all = members.iter().flat_map(|m| &observations[*m].readings);
-    let each: Vec<f64> = all.map(|r| r.value / r.deviation).collect();
-    DVector::from_vec(each)
+    let each = all
+        .zip(before.iter())
+        .map(|(r, before)| match r.is_place() {
+            true => *before,
+            false => r.value / r.deviation,
+        });
+    DVector::from_vec(each.collect())
 }
 
 /// The rows of one posture, divided by the standard deviations.

@@ -17,7 +17,7 @@ pub struct IdentifiedNumber {
     /// What the readings say; null where its compliance vanishes.
     pub identified: Option<f64>,
     /// Standard deviation relative to the value, percent; of an entry of a matrix relative to the geometric mean of its diagonal entries.
-    /// Null where nothing is known.
+    /// Null where nothing is known, and for errors of the geometry and places of markers, which have their size in `deviation` only.
     pub deviation_percent: Option<f64>,
     /// Standard deviation in the unit of the number; null where nothing is known.
     pub deviation: Option<f64>,
@@ -25,7 +25,7 @@ pub struct IdentifiedNumber {
     pub interval: Option<[Option<f64>; 2]>,
     /// It is zero, its bound: the compliance of a spring that the readings do not tell from rigid.
     pub at_bound: bool,
-    /// A number of the model file; friction is none.
+    /// A number of the model file; friction and places of markers are none.
     pub is_of_model: bool,
     /// A spring that acts as a load beside the joints (a gravity compensator).
     pub acts_beside_joints: bool,

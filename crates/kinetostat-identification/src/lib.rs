@@ -7,6 +7,7 @@
 //! table              measurements as text: postures, loads, readings; the frame of the instrument
 //! experiment         the same as observations
 //! unknown            which numbers of the model, as compliances; springs, change: what they change
+//! geometry, markers  errors of the geometry and places of markers as unknowns; gauge: which of their combinations are free
 //! prediction         what the machine would show, and its derivatives
 //! least_squares      weighted least squares by postures; cone: with physical constraints
 //! fit                Gauss-Newton steps over both
@@ -24,9 +25,12 @@ mod error;
 mod experiment;
 mod findings;
 mod fit;
+mod gauge;
+mod geometry;
 mod identifiability;
 mod identified;
 mod least_squares;
+mod markers;
 mod plan;
 mod prediction;
 mod result;
@@ -41,6 +45,7 @@ pub use error::IdentificationError;
 pub use experiment::{Branch, Observation, Reading, ReadingOf, TestLoad};
 pub use findings::Finding;
 pub use fit::{Fit, FitOptions, identify};
+pub use gauge::Gauge;
 pub use identifiability::{Combination, Identifiability, Knowledge, WEAK};
 pub use identified::{IdentifiedNumber, PostureResiduals};
 pub use least_squares::{HUBER, LinearFit, PostureRows, Start, fit as least_squares};

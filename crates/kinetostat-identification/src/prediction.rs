@@ -70,7 +70,7 @@ pub(crate) fn predict_each(
     let changes = unknowns.changes(values)?;
     let of_machine = changes
         .iter()
-        .position(|c| matches!(c, Change::Machine { .. }));
+        .position(|c| matches!(c, Change::Machine { .. } | Change::Marker(..)));
     if let (Theory::SmallLoads, Some(i)) = (theory, of_machine) {
         let path = unknowns.list()[i].parameter.path.clone();
         return Err(IdentificationError::NeedsLoads { path });
@@ -78,7 +78,14 @@ pub(crate) fn predict_each(
     let machine = Machine {
         mechanism: &mechanism,
         changes: &changes,
+        markers: &unknowns.markers,
+        places: unknowns.marker_places(values),
     };
+    let of_place = |o: &&Observation| o.readings.iter().any(Reading::is_place);
+    if let (Theory::SmallLoads, Some(own)) = (theory, observations.iter().find(of_place)) {
+        let posture = own.posture.clone();
+        return Err(IdentificationError::PlacesNeedLoads { posture });
+    }
     let each = observations.par_iter().map(|observation| {
         let mut found = match theory {
             Theory::SmallLoads => machine.small(observation),
@@ -93,9 +100,22 @@ pub(crate) fn predict_each(
 /// Share of the largest torque below which a drive is not loaded.
 const NO_TORQUE: f64 = 1e-4;
 
-struct Machine<'a> {
-    mechanism: &'a Mechanism,
-    changes: &'a [Change],
+/// A machine that answers, and how it changes with the unknowns.
+pub(crate) struct Machine<'a> {
+    pub mechanism: &'a Mechanism,
+    pub changes: &'a [Change],
+    /// Nominal places of the markers whose places are unknown.
+    pub markers: &'a [Vector3<f64>],
+    /// The places of these markers, m, in the tool's frame.
+    pub places: Vec<Vector3<f64>>,
+}
+
+/// A machine in an equilibrium.
+#[derive(Clone)]
+struct Reached {
+    tool: Pose,
+    /// Motions of the tool as each unknown grows, per its unit.
+    motions: Vec<Vector6<f64>>,
 }
 
 impl Machine<'_> {
@@ -188,45 +208,66 @@ impl Machine<'_> {
         Ok(())
     }
 
-    fn loaded(&self, observation: &Observation) -> Result<Prediction, IdentificationError> {
+    /// Place of the marker of a reading in the tool's frame.
+    fn place_of(&self, reading: &Reading) -> Vector3<f64> {
+        let own = self.markers.iter().position(|m| *m == reading.marker);
+        own.map_or(reading.marker, |marker| self.places[marker])
+    }
+
+    /// Readings by equilibria, with their derivatives.
+    pub(crate) fn loaded(
+        &self,
+        observation: &Observation,
+    ) -> Result<Prediction, IdentificationError> {
         let posture = posture_of(self.mechanism, observation)?;
-        let solved = |wrench: &Wrench| {
+        let reached = |wrench: &Wrench| {
             let found = posture.deflected_by(wrench);
-            found.map_err(|reason| refused(observation, reason))
+            let found = found.map_err(|reason| refused(observation, reason))?;
+            Ok::<_, IdentificationError>(Reached {
+                motions: self.motions(observation, &posture, &found)?,
+                tool: found.tool,
+            })
         };
-        let load = Wrench::new(observation.load.force, observation.load.moment);
-        let (rest, under) = (solved(&Wrench::zero())?, solved(&load)?);
         let readings = &observation.readings;
-        let markers = |pose: &Pose| -> Vec<Vector3<f64>> {
-            readings
-                .iter()
-                .map(|r| pose.rotation * (r.marker - observation.load.at))
-                .collect()
+        let under = reached(&Wrench::new(
+            observation.load.force,
+            observation.load.moment,
+        ))?;
+        // Only displacements and turns are differences.
+        let rest = match readings.iter().all(Reading::is_place) {
+            true => under.clone(),
+            false => reached(&Wrench::zero())?,
         };
-        let (arms_at_rest, arms) = (markers(&rest.tool), markers(&under.tool));
+        let arm = |at: &Reached, reading: &Reading| {
+            at.tool.rotation * (self.place_of(reading) - observation.load.at)
+        };
         let turn = (under.tool.rotation * rest.tool.rotation.inverse()).scaled_axis();
         let moved = under.tool.translation.vector - rest.tool.translation.vector;
-        let values = readings
-            .iter()
-            .enumerate()
-            .map(|(i, reading)| match reading.of {
-                ReadingOf::Along(n) => n.dot(&(moved + arms[i] - arms_at_rest[i])),
-                ReadingOf::About(n) => n.dot(&turn),
-            });
+        let values = readings.iter().map(|reading| match reading.of {
+            ReadingOf::Along(n) => n.dot(&(moved + arm(&under, reading) - arm(&rest, reading))),
+            ReadingOf::About(n) => n.dot(&turn),
+            ReadingOf::Place(n) => n.dot(&(under.tool.translation.vector + arm(&under, reading))),
+        });
         let values = DVector::from_iterator(readings.len(), values);
-        let motions = |at: &MechanismEquilibrium| self.motions(observation, &posture, at);
-        let (rest, under) = (motions(&rest)?, motions(&under)?);
+        let marker_motion =
+            |at: &Reached, reading: &Reading, column: usize| match self.changes[column] {
+                Change::Marker(marker, k) if self.markers[marker] == reading.marker => {
+                    at.tool.rotation * Vector3::ith(k, 1.0)
+                }
+                _ => twist_at(&at.motions[column], &arm(at, reading)),
+            };
         let along_turn = rate_of_rotation_vector(&turn);
         let turned = Rotation3::new(turn);
         let derivatives = DMatrix::from_fn(readings.len(), self.changes.len(), |i, column| {
-            let linear = |twist: &Vector6<f64>, arm: &Vector3<f64>| twist_at(twist, arm);
+            let moved = |at: &Reached| marker_motion(at, &readings[i], column);
             match readings[i].of {
-                ReadingOf::Along(n) => n.dot(
-                    &(linear(&under[column], &arms[i]) - linear(&rest[column], &arms_at_rest[i])),
-                ),
+                ReadingOf::Along(n) => n.dot(&(moved(&under) - moved(&rest))),
                 ReadingOf::About(n) => n.dot(
-                    &(along_turn * (angular(&under[column]) - turned * angular(&rest[column]))),
+                    &(along_turn
+                        * (angular(&under.motions[column])
+                            - turned * angular(&rest.motions[column]))),
                 ),
+                ReadingOf::Place(n) => n.dot(&moved(&under)),
             }
         });
         Ok(Prediction {
@@ -260,7 +301,7 @@ impl Machine<'_> {
                         .for_each(|s| s.add_residual(posture, at, &mut residual));
                     residual
                 }
-                Change::Friction => return Ok(Vector6::zeros()),
+                Change::Marker(..) | Change::Friction => return Ok(Vector6::zeros()),
                 Change::Machine { more, less, step } => {
                     let of = |m: &Mechanism| {
                         let posture = posture_of(m, observation)?;
@@ -357,7 +398,7 @@ fn rate_of_rotation_vector(turn: &Vector3<f64>) -> Matrix3<f64> {
 /// Unit wrench on the tool whose work is the reading; `arm` from the tool's origin to the marker, base axes.
 fn wrench_of(reading: &Reading, arm: &Vector3<f64>) -> Wrench {
     match reading.of {
-        ReadingOf::Along(n) => Wrench::new(n, arm.cross(&n)),
+        ReadingOf::Along(n) | ReadingOf::Place(n) => Wrench::new(n, arm.cross(&n)),
         ReadingOf::About(n) => Wrench::new(Vector3::zeros(), n),
     }
 }

@@ -10,6 +10,7 @@ use crate::error::IdentificationError;
 use crate::experiment::{Observation, Reading, ReadingOf, by_posture};
 use crate::findings::{Finding, exchanged_markers, findings, scale};
 use crate::fit::{Fit, FitOptions, identify};
+use crate::geometry::is_geometry;
 use crate::identifiability::{Identifiability, Knowledge};
 use crate::identified::{IdentifiedNumber, PostureResiduals};
 use crate::unknown::{Form, Unknown, Unknowns};
@@ -27,7 +28,7 @@ pub struct Identification {
     pub degrees_of_freedom: usize,
     /// Scatter about the fit, in stated standard deviations.
     pub sigma_factor: f64,
-    /// Root mean square of the readings of lengths, mm.
+    /// Root mean square of the readings of lengths, mm; of a place its distance from where the model as it was has it.
     pub rms_reading_mm: f64,
     /// Root mean square of what the model as it was leaves of them, mm.
     pub rms_before_mm: f64,
@@ -61,9 +62,9 @@ pub fn identification(
     let covariance = covariance(&fit);
     let deviations = covariance.diagonal().map(|v| v.max(0.0).sqrt());
     let estimate = &fit.linear.estimate;
-    // Numbers of a matrix are compared with its diagonal, all others with themselves.
+    // Numbers of a matrix are compared with its diagonal, those of geometry with 1 mm or 1 mrad, all others with themselves.
     let sizes = DVector::from_fn(estimate.len(), |i, _| match unknowns.list()[i].form {
-        Form::MatrixEntry(..) => unknowns.list()[i].size,
+        Form::MatrixEntry(..) | Form::Geometry | Form::Marker(..) => unknowns.list()[i].size,
         _ => estimate[i].abs(),
     });
     let knowledge = seen.knowledge(&deviations.component_div(&sizes));
@@ -72,7 +73,8 @@ pub fn identification(
     let in_units = &slopes * &covariance * slopes.transpose();
     let quantile = student_95(fit.names.len(), fit.linear.degrees_of_freedom());
     let number = |(i, unknown): (usize, &Unknown)| {
-        let value = in_file.get(i).copied().unwrap_or(estimate[i]);
+        let own = || estimate[i] / unknown.parameter.in_si;
+        let value = in_file.get(i).copied().unwrap_or_else(own);
         let deviation = in_units[(i, i)].max(0.0).sqrt();
         let relative = match unknown.form {
             Form::MatrixEntry(row, column) => {
@@ -93,12 +95,13 @@ pub fn identification(
             unit: unknown.parameter.unit.to_owned(),
             before: unknown.parameter.value,
             identified: Some(value).filter(|x| x.is_finite() && is_possible),
-            deviation_percent: of_known(100.0 * relative),
+            deviation_percent: of_known(100.0 * relative)
+                .filter(|_| !is_geometry(&unknown.parameter.path)),
             deviation: of_known(deviation),
             interval: (is_seen && !is_entry && !is_zero)
                 .then(|| interval(unknown, estimate[i], quantile * deviations[i])),
             at_bound,
-            is_of_model: unknown.form != Form::Friction,
+            is_of_model: unknown.form.is_of_model(),
             acts_beside_joints: unknown.form == Form::Parallel,
             knowledge: knowledge[i],
             known_combination: match is_seen {
@@ -122,6 +125,13 @@ pub fn identification(
     let lengths = Lengths::of(observations);
     let mut findings = findings(&numbers, &residuals, &fit.linear);
     findings.extend(exchanged_markers(&fit, observations));
+    findings.splice(
+        0..0,
+        fit.gauge.as_ref().map(|gauge| Finding::Geometry {
+            numbers: gauge.numbers,
+            directions: gauge.directions,
+        }),
+    );
     findings.splice(0..0, scale(&fit));
     Ok(Identification {
         postures: fit.names.len(),
@@ -225,7 +235,7 @@ struct Lengths(Vec<Vec<Option<f64>>>);
 impl Lengths {
     fn of(observations: &[Observation]) -> Self {
         let length = |reading: &Reading| match reading.of {
-            ReadingOf::Along(_) => Some(reading.deviation),
+            ReadingOf::Along(_) | ReadingOf::Place(_) => Some(reading.deviation),
             ReadingOf::About(_) => None,
         };
         let own = |(_, members): (&str, Vec<usize>)| {

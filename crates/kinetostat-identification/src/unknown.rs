@@ -6,11 +6,12 @@
 
 use kinetostat::Mechanism;
 use kinetostat_model::{Model, Parameter, ParameterKind, ParametricModel};
-use nalgebra::DVector;
+use nalgebra::{DVector, Vector3};
 
 use crate::compliance_matrix::{entries, entry_size, inverse, matrix_of, with_unit_diagonal};
 use crate::cone::Constraint;
 use crate::error::IdentificationError;
+use crate::geometry::{DEVIATION, error_paths};
 use crate::springs::{difference, drive_coordinates};
 
 /// Components of a 6 x 6 matrix as paths name them.
@@ -32,8 +33,19 @@ pub enum Form {
     Parallel,
     /// The number itself.
     Value,
+    /// Shift or turn of a deviation of the geometry.
+    Geometry,
+    /// Component of the place of a marker in the tool's frame: no number of the model.
+    Marker(usize, usize),
     /// Angle or length by which friction holds a drive back, while its torque grows as while it shrinks: no number of the model.
     Friction,
+}
+
+impl Form {
+    /// True for a number of the model file.
+    pub(crate) fn is_of_model(self) -> bool {
+        !matches!(self, Self::Marker(..) | Self::Friction)
+    }
 }
 
 /// One number to identify.
@@ -54,11 +66,13 @@ pub struct Unknown {
 pub struct Unknowns {
     pub(crate) parametric: ParametricModel,
     pub(crate) list: Vec<Unknown>,
+    /// Nominal places of the markers whose places are unknown, m, in the tool's frame.
+    pub(crate) markers: Vec<Vector3<f64>>,
 }
 
 impl Unknowns {
     /// The numbers that match the patterns: a path, a path with `*` for any text, the path of a whole matrix, or `joints` for the
-    /// stiffness of every drive. Patterns take the springs that they match; a length, an angle or a mass is named by its whole path.
+    /// stiffness of every drive, or `geometry` for the errors of the geometry of every limb. Patterns take the springs that they match; a length, an angle or a mass is named by its whole path.
     ///
     /// ```
     /// use kinetostat_identification::Unknowns;
@@ -74,8 +88,16 @@ impl Unknowns {
     pub fn matching(model: &Model, patterns: &[&str]) -> Result<Self, IdentificationError> {
         let all = model.parameters();
         let drives = drives(model, &all);
+        let errors = match patterns.contains(&"geometry") {
+            true => error_paths(model, &all)?,
+            false => Vec::new(),
+        };
         let mut paths: Vec<&str> = Vec::new();
         for pattern in patterns {
+            if *pattern == "geometry" {
+                paths.extend(errors.iter().map(String::as_str));
+                continue;
+            }
             let hits = |p: &Parameter| match *pattern {
                 "joints" => drives.contains(&p.path.as_str()),
                 // Several at once are those of springs; a length or a mass is named by itself. A table by its path has no factor on it.
@@ -96,6 +118,11 @@ impl Unknowns {
                 .filter(|p| hits(p))
                 .map(|p| p.path.as_str())
                 .collect();
+            // A deviation that the file does not have is zero.
+            if found.is_empty() && pattern.starts_with(DEVIATION) {
+                paths.push(pattern);
+                continue;
+            }
             if found.is_empty() {
                 let springs = all.iter().filter(|p| form(p) == Some(Form::Compliance));
                 return Err(IdentificationError::NoNumber {
@@ -109,7 +136,11 @@ impl Unknowns {
         let paths: Vec<&str> = whole.iter().map(String::as_str).collect();
         let parametric = model.parametric(&paths)?;
         let list = unknowns(parametric.parameters())?;
-        let mut found = Self { parametric, list };
+        let mut found = Self {
+            parametric,
+            list,
+            markers: Vec::new(),
+        };
         found.tell_springs_beside_joints()?;
         Ok(found)
     }
@@ -220,8 +251,8 @@ impl Unknowns {
         for (i, unknown) in self.list.iter().enumerate() {
             let si = match unknown.form {
                 Form::Compliance => 1.0 / values[i],
-                Form::Value | Form::Parallel => values[i],
-                Form::Friction => continue,
+                Form::Value | Form::Geometry | Form::Parallel => values[i],
+                Form::Marker(..) | Form::Friction => continue,
                 Form::MatrixEntry(row, column) => {
                     if (row, column) == (0, 0) {
                         let stiffness = inverse(&matrix_of(&values.rows(i, 21).into_owned()));
@@ -318,6 +349,7 @@ fn form(parameter: &Parameter) -> Option<Form> {
         | ParameterKind::Elasticity
         | ParameterKind::Rigidity
         | ParameterKind::Factor => Some(Form::Compliance),
+        _ if parameter.path.starts_with(DEVIATION) => Some(Form::Geometry),
         ParameterKind::Length | ParameterKind::Angle | ParameterKind::Mass => Some(Form::Value),
         _ => None,
     }
@@ -335,8 +367,8 @@ fn unknowns(parameters: &[Parameter]) -> Result<Vec<Unknown>, IdentificationErro
         let (nominal, size) = match form {
             Form::Compliance if si > 0.0 => (1.0 / si, 1.0 / si),
             Form::Compliance => return Err(not()),
-            Form::Value | Form::Parallel | Form::Friction => (si, value_size(parameter)),
             Form::MatrixEntry(..) => (si, 1.0),
+            _ => (si, value_size(parameter)),
         };
         list.push(Unknown {
             parameter: parameter.clone(),

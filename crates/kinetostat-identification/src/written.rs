@@ -3,10 +3,11 @@
 use kinetostat_model::{Model, NumberEdit};
 
 use crate::error::IdentificationError;
+use crate::geometry::DEVIATION;
 use crate::identified::IdentifiedNumber;
 use crate::result::Identification;
 
-/// The model with the identified numbers, each with its source.
+/// The model with the identified numbers, each with its source. Errors of the geometry are deviations behind the end of the file.
 ///
 /// # Errors
 /// Numbers with which the model would be refused.
@@ -22,6 +23,8 @@ pub fn identified_model(
         let words = match n.deviation_percent {
             Some(percent) => format!("identified from {source}, standard deviation {percent:.2} %"),
             None if n.at_bound => format!("identified from {source}: not told from rigid"),
+            // All of them, because only together they say where the tool is.
+            None if n.number.starts_with(DEVIATION) => format!("identified from {source}"),
             None => return None,
         };
         Some(NumberEdit {
@@ -30,8 +33,44 @@ pub fn identified_model(
             source: Some(words),
         })
     };
-    let edits: Vec<NumberEdit> = found.numbers.iter().filter_map(edit).collect();
-    Ok(model.edited(&edits)?)
+    let edits = found.numbers.iter().filter_map(edit);
+    let (errors, others): (Vec<_>, Vec<_>) = edits.partition(|e| e.path.starts_with(DEVIATION));
+    let model = model.edited(&others)?;
+    match model.document.deviation.is_empty() {
+        true => {
+            let text = format!("{}{}", model.text, deviations(&model, &errors));
+            Ok(Model::from_toml(&text, &model.file)?)
+        }
+        false => Ok(model.edited(&errors)?),
+    }
+}
+
+/// Tables of deviations that a model without any gets at its end.
+fn deviations(model: &Model, errors: &[NumberEdit]) -> String {
+    // Component, key and place of a path, from its end.
+    let step = |e: &NumberEdit, k: usize| e.path.rsplitn(3, '.').nth(k).map(str::to_owned);
+    let mut out = String::new();
+    for own in errors.chunk_by(|a, b| step(a, 2) == step(b, 2)) {
+        let place = step(&own[0], 2).unwrap_or_default();
+        let at = |limb: &str| {
+            let rest = place.strip_prefix(DEVIATION)?.strip_prefix(limb)?;
+            rest.strip_prefix('.').map(str::to_owned)
+        };
+        let limbs = model.document.limb.iter();
+        let Some((limb, at)) = limbs.filter_map(|l| Some((&l.name, at(&l.name)?))).next() else {
+            continue;
+        };
+        let keys = own.chunk_by(|a, b| step(a, 1) == step(b, 1)).map(|own| {
+            let values: Vec<f64> = own.iter().map(|e| e.value).collect();
+            format!("{} = {values:?}", step(&own[0], 1).unwrap_or_default())
+        });
+        out += &format!(
+            "\n[[deviation]]\nlimb = {limb:?}\nat = {at:?}\nmoved_by = {{ {} }}\nsource = {:?}\n",
+            keys.collect::<Vec<String>>().join(", "),
+            own[0].source.as_deref().unwrap_or_default(),
+        );
+    }
+    out
 }
 
 /// Relative standard deviation beyond which a normal distribution has machines with negative stiffness among thousands.

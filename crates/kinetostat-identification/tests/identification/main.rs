@@ -7,6 +7,7 @@ mod design;
 mod design_refusals;
 mod fanuc;
 mod generator;
+mod geometry;
 mod joints;
 mod link_problem;
 mod links;

@@ -1,0 +1,53 @@
+//! Places of the markers in the tool's frame as unknowns.
+
+use kinetostat_model::{Parameter, ParameterKind};
+use nalgebra::{DVector, Vector3};
+
+use crate::experiment::Observation;
+use crate::geometry::{AXES, MARKER};
+use crate::unknown::{Form, Unknown, Unknowns};
+
+/// Size that an error of a marker's place is compared with, m.
+const MARKER_ERROR: f64 = 1e-3;
+
+impl Unknowns {
+    /// The same, and the places in the tool's frame of all markers whose places were read. The place that a reading states is the
+    /// nominal one, from which the fit starts.
+    #[must_use]
+    pub fn with_markers(mut self, observations: &[Observation]) -> Self {
+        let readings = observations.iter().flat_map(|o| &o.readings);
+        for reading in readings.filter(|r| r.is_place()) {
+            if self.markers.contains(&reading.marker) {
+                continue;
+            }
+            let marker = self.markers.len();
+            self.markers.push(reading.marker);
+            for (k, (axis, at)) in AXES.iter().zip(reading.marker.iter()).enumerate() {
+                self.list.push(Unknown {
+                    parameter: Parameter {
+                        path: format!("{MARKER}{}.{axis}", marker + 1),
+                        value: 1e3 * at,
+                        unit: "mm",
+                        kind: ParameterKind::Length,
+                        in_si: 1e-3,
+                    },
+                    form: Form::Marker(marker, k),
+                    nominal: *at,
+                    size: MARKER_ERROR,
+                });
+            }
+        }
+        self
+    }
+
+    /// Places of the markers in the tool's frame, m, in the order of `markers`.
+    pub(crate) fn marker_places(&self, values: &DVector<f64>) -> Vec<Vector3<f64>> {
+        let mut places = self.markers.clone();
+        for (unknown, value) in self.list.iter().zip(values.iter()) {
+            if let Form::Marker(marker, k) = unknown.form {
+                places[marker][k] = *value;
+            }
+        }
+        places
+    }
+}
