@@ -73,6 +73,32 @@ fn contradictions(rows: &[MeasuredRow], gravity: &Vector3<f64>) -> Vec<TableFaul
     faults
 }
 
+/// Observations of the places of markers, with and without a load, which the geometry is identified from. Displacements that the rows have
+/// beside them are not in it.
+///
+/// # Errors
+/// Rows that contradict each other.
+pub fn places(
+    rows: &[MeasuredRow],
+    gravity: &Vector3<f64>,
+) -> Result<Vec<Observation>, Vec<TableFault>> {
+    let faults = contradictions(rows, gravity);
+    let observation = |row: &MeasuredRow| {
+        let (place, deviation) = (row.read.position?, row.deviation.unwrap_or(DEVIATION));
+        Some(Observation {
+            posture: row.posture.clone(),
+            commands: row.commands.clone(),
+            load: row.load_under(gravity),
+            branch: None,
+            readings: Reading::place(row.marker, &place, deviation).into(),
+        })
+    };
+    match faults.is_empty() {
+        true => Ok(rows.iter().filter_map(observation).collect()),
+        false => Err(faults),
+    }
+}
+
 /// Observations from rows: displacements as they are, and positions under a load less the mean of those of the same marker in the
 /// same posture without one. `gravity` (m/s^2, base axes) pulls at the masses.
 ///

@@ -2,7 +2,7 @@
 
 use kinetostat::number::larger;
 use kinetostat_identification::{
-    Axes, NoFrame, ReadingOf, TableFault, into_base, observations, read_table,
+    Axes, NoFrame, ReadingOf, TableFault, into_base, observations, places, read_table,
 };
 use nalgebra::{Vector3, vector};
 
@@ -83,6 +83,12 @@ fn positions_are_compared_with_those_without_a_load() -> Outcome {
     assert!(off.fold(0.0, larger) < 1e-15, "{values:?}");
     assert!((found[0].readings[0].deviation - 1e-5 * 1.5_f64.sqrt()).abs() < 1e-15);
     assert_eq!(found[0].readings[0].marker, vector![0.05, 0.0, 0.0]);
+    // For the geometry they are read as they are, with and without the load.
+    let found = places(&rows, &GRAVITY).map_err(|f| anyhow::anyhow!("{f:?}"))?;
+    let readings = found.iter().flat_map(|o| &o.readings);
+    let along_z = readings.filter(|r| r.of == ReadingOf::Place(Vector3::z()));
+    let heights: Vec<f64> = along_z.map(|r| r.value).collect();
+    assert_eq!(heights, [0.2, 0.199, 0.2]);
     Ok(())
 }
 
