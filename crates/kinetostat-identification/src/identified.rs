@@ -31,6 +31,8 @@ pub struct IdentifiedNumber {
     pub acts_beside_joints: bool,
     /// How well the readings know it.
     pub knowledge: Knowledge,
+    /// Part of the displacements that was read which comes from it, root mean square, mm.
+    pub explains_mm: f64,
     /// The combination that is known where the number alone is not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub known_combination: Option<String>,
@@ -49,4 +51,17 @@ pub struct PostureResiduals {
     pub after: f64,
     /// The same for a model identified from all other postures; null where these do not determine it.
     pub left_out: Option<f64>,
+}
+
+/// Displacements along an axis of the base, root mean squares.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct DirectionResiduals {
+    /// Axis: x, y or z.
+    pub axis: String,
+    /// What was read, mm.
+    pub reading_mm: f64,
+    /// What the model as it was leaves of it, mm.
+    pub before_mm: f64,
+    /// What the identified model leaves of it, mm.
+    pub after_mm: f64,
 }

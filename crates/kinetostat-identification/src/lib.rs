@@ -12,7 +12,8 @@
 //! least_squares      weighted least squares by postures; cone: with physical constraints
 //! fit                Gauss-Newton steps over both
 //! identifiability    what the readings see
-//! result, findings   the numbers, and what must be known of them; written: as a model file
+//! result, findings   the numbers, and what must be known of them; written: as a model file; work: what they are good for;
+//!                    resampling: intervals by other postures
 //! plan, design       the postures in which to measure
 //! ```
 
@@ -33,10 +34,13 @@ mod least_squares;
 mod markers;
 mod plan;
 mod prediction;
+mod random;
+mod resampling;
 mod result;
 mod springs;
 mod table;
 mod unknown;
+mod work;
 mod written;
 
 pub use axes::Axes;
@@ -47,7 +51,7 @@ pub use findings::Finding;
 pub use fit::{Fit, FitOptions, identify};
 pub use gauge::Gauge;
 pub use identifiability::{Combination, Identifiability, Knowledge, WEAK};
-pub use identified::{IdentifiedNumber, PostureResiduals};
+pub use identified::{DirectionResiduals, IdentifiedNumber, PostureResiduals};
 pub use least_squares::{HUBER, LinearFit, PostureRows, Start, fit as least_squares};
 pub use plan::{Plan, PlanError, PlanTask, PlannedMeasurement, Purpose, Room, plan};
 pub use prediction::{Prediction, Theory, predict};
@@ -57,4 +61,5 @@ pub use table::{
     TableFault, into_base, observations, places, read_table,
 };
 pub use unknown::{Form, Unknown, Unknowns};
+pub use work::ErrorAtWork;
 pub use written::{identified_model, uncertainty_file};

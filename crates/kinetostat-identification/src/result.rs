@@ -1,6 +1,6 @@
 //! What an identification found, with units in the names.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -12,7 +12,7 @@ use crate::findings::{Finding, exchanged_markers, findings, scale};
 use crate::fit::{Fit, FitOptions, identify};
 use crate::geometry::is_geometry;
 use crate::identifiability::{Identifiability, Knowledge};
-use crate::identified::{IdentifiedNumber, PostureResiduals};
+use crate::identified::{DirectionResiduals, IdentifiedNumber, PostureResiduals};
 use crate::unknown::{Form, Unknown, Unknowns};
 
 /// Result of an identification.
@@ -44,8 +44,21 @@ pub struct Identification {
     pub covariance: Vec<Vec<f64>>,
     /// Residuals posture by posture.
     pub residuals: Vec<PostureResiduals>,
+    /// Residuals of the displacements along the axes of the base.
+    pub directions: Vec<DirectionResiduals>,
     /// What must be known.
     pub findings: Vec<Finding>,
+    /// Fits to resampled postures between which the intervals lie; 0 where these are Student's.
+    pub resamples: usize,
+    /// The fit itself.
+    #[serde(skip)]
+    pub(crate) fit: Fit,
+    /// Covariance of its unknowns, SI.
+    #[serde(skip)]
+    pub(crate) covariance_in_si: DMatrix<f64>,
+    /// Readings far from the fit count less.
+    #[serde(skip)]
+    pub(crate) robust: bool,
 }
 
 /// Identifies numbers of a model and says how well they are known.
@@ -104,13 +117,15 @@ pub fn identification(
             is_of_model: unknown.form.is_of_model(),
             acts_beside_joints: unknown.form == Form::Parallel,
             knowledge: knowledge[i],
+            explains_mm: 0.0,
             known_combination: match is_seen {
                 true => None,
                 false => combination_of(i, &seen, unknowns),
             },
         }
     };
-    let numbers: Vec<IdentifiedNumber> = unknowns.list().iter().enumerate().map(number).collect();
+    let mut numbers: Vec<IdentifiedNumber> =
+        unknowns.list().iter().enumerate().map(number).collect();
     let left_out = fit.linear.left_out(&fit.postures);
     let rms = |r: &DVector<f64>| (r.norm_squared() / r.len() as f64).sqrt();
     let residuals: Vec<PostureResiduals> = (0..fit.names.len())
@@ -123,6 +138,16 @@ pub fn identification(
         })
         .collect();
     let lengths = Lengths::of(observations);
+    for (k, number) in numbers.iter_mut().enumerate() {
+        let unknown = &unknowns.list()[k];
+        // A spring moves the tool by all of its compliance, a length by its change.
+        let change = match unknown.form {
+            Form::Compliance | Form::MatrixEntry(..) | Form::Parallel => estimate[k],
+            _ => estimate[k] - unknown.nominal,
+        };
+        let own = fit.postures.iter().map(|p| p.rows.column(k) * change);
+        number.explains_mm = lengths.rms(&own.collect::<Vec<_>>());
+    }
     let mut findings = findings(&numbers, &residuals, &fit.linear);
     findings.extend(exchanged_markers(&fit, observations));
     findings.splice(
@@ -149,9 +174,14 @@ pub fn identification(
             .map(|all| lengths.rms(&all)),
         steps: fit.steps,
         covariance: rows_of(&in_units),
+        directions: lengths.directions(&fit),
         numbers,
         residuals,
         findings,
+        resamples: 0,
+        covariance_in_si: covariance,
+        robust: options.robust,
+        fit,
     })
 }
 
@@ -190,7 +220,7 @@ fn size_in_file(unknowns: &Unknowns, at: usize, row: usize, column: usize, in_fi
 }
 
 /// Quantile of Student's distribution for a confidence of 95 %: postures are what is independent, and few of them are less sure.
-fn student_95(postures: usize, degrees_of_freedom: usize) -> f64 {
+pub(crate) fn student_95(postures: usize, degrees_of_freedom: usize) -> f64 {
     let freedom = (postures.saturating_sub(1)).min(degrees_of_freedom).max(1);
     StudentsT::new(0.0, 1.0, freedom as f64).map_or(f64::INFINITY, |t| t.inverse_cdf(0.975))
 }
@@ -229,13 +259,24 @@ fn combination_of(unknown: usize, seen: &Identifiability, unknowns: &Unknowns) -
     Some(parts.join(" + "))
 }
 
-/// Which rows are lengths, and the standard deviation of each, m.
-struct Lengths(Vec<Vec<Option<f64>>>);
+/// Which rows are lengths: the standard deviation of each, m, and along what it was read.
+struct Lengths(Vec<Vec<Option<Length>>>);
+
+struct Length {
+    deviation: f64,
+    along: Vector3<f64>,
+}
+
+/// Cosine of the angle between a reading and the axis along which it counts, at least.
+const ALONG: f64 = 0.9;
 
 impl Lengths {
     fn of(observations: &[Observation]) -> Self {
         let length = |reading: &Reading| match reading.of {
-            ReadingOf::Along(_) | ReadingOf::Place(_) => Some(reading.deviation),
+            ReadingOf::Along(along) | ReadingOf::Place(along) => Some(Length {
+                deviation: reading.deviation,
+                along,
+            }),
             ReadingOf::About(_) => None,
         };
         let own = |(_, members): (&str, Vec<usize>)| {
@@ -247,16 +288,40 @@ impl Lengths {
 
     /// Root mean square of the lengths among numbers in standard deviations, mm.
     fn rms(&self, in_deviations: &[DVector<f64>]) -> f64 {
+        self.rms_where(in_deviations, |_| true).unwrap_or(0.0)
+    }
+
+    /// The same over some of the lengths; none where there are none.
+    fn rms_where(
+        &self,
+        in_deviations: &[DVector<f64>],
+        counts: impl Fn(&Length) -> bool,
+    ) -> Option<f64> {
         let mut sum = 0.0;
         let mut count = 0;
-        for (own, deviations) in in_deviations.iter().zip(&self.0) {
-            for (x, deviation) in own.iter().zip(deviations) {
-                if let Some(deviation) = deviation {
-                    sum += (x * deviation).powi(2);
+        for (own, lengths) in in_deviations.iter().zip(&self.0) {
+            for (x, length) in own.iter().zip(lengths) {
+                if let Some(length) = length.as_ref().filter(|l| counts(l)) {
+                    sum += (x * length.deviation).powi(2);
                     count += 1;
                 }
             }
         }
-        1e3 * (sum / f64::from(count.max(1))).sqrt()
+        (count > 0).then(|| 1e3 * (sum / f64::from(count)).sqrt())
+    }
+
+    /// Residuals along each axis of the base along which something was read.
+    fn directions(&self, fit: &Fit) -> Vec<DirectionResiduals> {
+        let each = ["x", "y", "z"].into_iter().enumerate();
+        each.filter_map(|(k, axis)| {
+            let of = |all: &[DVector<f64>]| self.rms_where(all, |l| l.along[k].abs() > ALONG);
+            Some(DirectionResiduals {
+                axis: axis.to_owned(),
+                reading_mm: of(&fit.readings)?,
+                before_mm: of(&fit.before)?,
+                after_mm: of(&fit.linear.residuals)?,
+            })
+        })
+        .collect()
     }
 }

@@ -54,6 +54,7 @@ pub use chart::bars::{Bar, Bars};
 pub use chart::plot::{Plot, PlotLine, PlotMark};
 pub use chart::section::{Cell, Section};
 pub use drawing::{Drawing, Magnified, Moved, Placed, View};
+pub use paper::document::Document;
 pub use paper::language::Language;
 pub use paper::question::{Paper, VerifiedProgram};
 pub use vibration::{DrawnMotion, ReceptanceCurve};

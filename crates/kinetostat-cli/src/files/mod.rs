@@ -15,3 +15,4 @@ pub(crate) mod origin;
 pub(crate) mod outputs;
 pub(crate) mod paths;
 pub(crate) mod standard_input;
+pub(crate) mod table_text;

@@ -1,6 +1,6 @@
 //! The answer of `identify`, stable names with units.
 
-use kinetostat_identification::{Identification, InstrumentFrame};
+use kinetostat_identification::{ErrorAtWork, Identification, InstrumentFrame};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -20,6 +20,18 @@ pub(crate) struct IdentifyAnswer {
     pub(crate) instrument: Option<InstrumentPlace>,
     #[serde(flatten)]
     pub(crate) found: Identification,
+    /// Errors after compensation along the program of a job, if one was given.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) work: Vec<WorkError>,
+}
+
+/// Errors at a place of a program.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct WorkError {
+    /// Length of the path up to here, mm.
+    pub(crate) path_mm: f64,
+    #[serde(flatten)]
+    pub(crate) error: ErrorAtWork,
 }
 
 /// Where the instrument stood.

@@ -4,6 +4,7 @@
 //! uncertainty.
 
 mod answer;
+mod report;
 mod text;
 
 use std::path::{Path, PathBuf};
@@ -11,17 +12,18 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use kinetostat_diagnostic::{Diagnostic, ErrorCode, Location};
 use kinetostat_identification::{
-    Axes, DEVIATION, FitOptions, Identification, IdentificationError, MeasuredRow, TableFault,
-    Theory, Unknowns, identification, identified_model, into_base, observations, read_table,
-    uncertainty_file,
+    Axes, DEVIATION, FitOptions, Identification, IdentificationError, MeasuredRow, Observation,
+    TableFault, Theory, Unknowns, identification, identified_model, into_base, observations,
+    read_table, uncertainty_file,
 };
 use kinetostat_model::Model;
-use kinetostat_report::{Plot, PlotLine};
 
 use crate::files::answer_files::{AnswerFiles, ClaimedFiles, Shown};
 use crate::files::input_files::InputFiles;
-use crate::identify::answer::{IdentifyAnswer, InstrumentPlace};
-use crate::options::number;
+use crate::identify::answer::{IdentifyAnswer, InstrumentPlace, WorkError};
+use crate::options::{number, whole};
+use crate::program::paper::refuse_without_pdf;
+use crate::program::work::work_of_job;
 use crate::ui::csv_table::{cell, written};
 use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::result_form::ResultForm;
@@ -59,21 +61,34 @@ pub(crate) struct IdentifyArgs {
     /// Readings far from the fit count less, so that a few bad ones spoil little
     #[arg(long)]
     pub(crate) robust: bool,
+    /// Intervals from fits to N drawings of as many postures (bootstrap), in place of Student's; 1000 are usual
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
+    pub(crate) resamples: Option<usize>,
     /// Displacements in proportion to the load, without weights: as textbooks do
     #[arg(long)]
     pub(crate) small_loads: bool,
+    /// Job of the work that the machine is for: what is left along its program before and after
+    #[arg(long, value_name = "JOB")]
+    pub(crate) work: Option<PathBuf>,
     /// Model file with the identified numbers
     #[arg(long, short, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) out: Option<PathBuf>,
     /// Their standard deviations and correlations, for `tolerance --uncertain` and `compensate --uncertain`
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) uncertain_out: Option<PathBuf>,
+    /// The report with pictures, as one HTML file
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    pub(crate) report: Option<PathBuf>,
+    /// The report without pictures, as PDF
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    pub(crate) pdf: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) outputs: AnswerFiles,
 }
 
 const HELP: &str = "\
-Columns of the table, separated by commas, semicolons or tabs:
+The table is CSV (commas, semicolons or tabs), XLSX (the first sheet) or
+Parquet. Its columns:
   posture              name; rows of the same name share its errors
   A1_deg, A2_deg, ...  axes as the controller shows them, or the model's joints
   fx_n, fy_n, fz_n     force on the tool, base axes; mx_n_m, my_n_m, mz_n_m
@@ -91,6 +106,8 @@ Columns of the table, separated by commas, semicolons or tabs:
 Examples:
   kinetostat identify my_robot.toml --measured pulls.csv -o identified.toml \\
       --uncertain-out spread.toml
+  kinetostat identify my_robot.toml --measured pulls.xlsx --work milling.toml \\
+      --report pulls.html
   kinetostat identify my_robot.toml --measured pulls.csv --robust \\
       --numbers joints chain.arm.tilt*.stiffness_n_m_per_rad --prior-percent 50
 
@@ -99,6 +116,10 @@ Exit codes:
   1    wrong input: a file, a number or an option; the message says which
   2    no answer: the fit does not settle, or a posture has no equilibrium
   130  stopped with Ctrl-C; nothing was written";
+
+/// Resampled fits between whose percentiles an interval lies.
+const FEWEST: usize = 100;
+const MOST: usize = 100_000;
 
 /// Results that the command gives as JSON.
 pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<IdentifyAnswer>("identified numbers")];
@@ -125,6 +146,10 @@ pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
     let name = args.measured.display().to_string();
     let mut inputs: Vec<PathBuf> = path.into_iter().collect();
     inputs.push(args.measured.clone());
+    inputs.extend(args.work.clone());
+    if args.pdf.is_some() {
+        refuse_without_pdf()?;
+    }
     let mut claimed = ClaimedFiles::claim(&args.outputs, &inputs)?;
     let mut claim = |what, path: &Option<PathBuf>| {
         path.as_ref()
@@ -133,6 +158,8 @@ pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
     };
     let out = claim("model", &args.out)?;
     let uncertain = claim("uncertainties", &args.uncertain_out)?;
+    let report_file = claim("report", &args.report)?;
+    let pdf_file = claim("report", &args.pdf)?;
     let patterns: Vec<&str> = args.numbers.iter().map(String::as_str).collect();
     let unknowns = Unknowns::matching(&model, &patterns)?;
     let unknowns = match args.friction {
@@ -160,6 +187,19 @@ pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
         prior: prior(args)?,
     };
     let found = identification(&unknowns, &observations, &options)?;
+    let found = match args.resamples {
+        Some(count @ FEWEST..=MOST) => found.with_resampled_intervals(&unknowns, count),
+        Some(count) => {
+            return Err(ErrorCode::Value.failure(format!(
+                "--resamples {count}: {FEWEST} to {MOST} tell an interval"
+            )));
+        }
+        None => found,
+    };
+    let work = match &args.work {
+        Some(job) => errors_at_work(job, args, &model, &unknowns, &found)?,
+        None => Vec::new(),
+    };
     if let Some(index) = out {
         let identified = identified_model(&model, &found, &name)?;
         let head = format!(
@@ -182,14 +222,46 @@ pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
         robust: args.robust,
         instrument,
         found,
+        work,
     };
+    if report_file.is_some() || pdf_file.is_some() {
+        let document = report::report(&answer, &model.mechanism, &observations);
+        if let Some(index) = report_file {
+            claimed.fill(index, document.html().as_bytes())?;
+        }
+        if let Some(index) = pdf_file {
+            let bytes = document.pdf();
+            let bytes = bytes.map_err(|error| ErrorCode::Internal.failure(error.to_string()))?;
+            claimed.fill(index, &bytes)?;
+        }
+    }
     let shown = Shown {
         text: text::answer_text(&answer),
         csv: table(&answer.found)?,
-        svg: picture(&answer).svg(),
+        svg: report::residuals(&answer).svg(),
         failure: None,
     };
     claimed.finish(&shown, &answer)
+}
+
+/// What is left along the program of a job.
+fn errors_at_work(
+    job: &Path,
+    args: &IdentifyArgs,
+    model: &Model,
+    unknowns: &Unknowns,
+    found: &Identification,
+) -> Answer<Vec<WorkError>> {
+    let places = work_of_job(job, &args.model, model)?;
+    let (paths, observations): (Vec<f64>, Vec<Observation>) = places
+        .into_iter()
+        .map(|place| (place.path_mm, place.observation))
+        .unzip();
+    let errors = found.at_work(unknowns, &observations, Theory::Loaded)?;
+    let each = paths.into_iter().zip(errors);
+    Ok(each
+        .map(|(path_mm, error)| WorkError { path_mm, error })
+        .collect())
 }
 
 fn prior(args: &IdentifyArgs) -> Answer<Option<f64>> {
@@ -214,7 +286,7 @@ fn rows(
             1e3 * deviation
         )));
     }
-    let text = files.text("table of measurements", &args.measured)?;
+    let text = files.table("table of measurements", &args.measured)?;
     let mut rows = read_table(&text, &Axes::of(model)).map_err(|faults| of_table(name, &faults))?;
     for row in &mut rows {
         row.deviation.get_or_insert(deviation);
@@ -274,30 +346,4 @@ fn table(found: &Identification) -> Answer<Vec<u8>> {
         ]
     }));
     written(&rows)
-}
-
-/// Residuals of the postures before and after.
-fn picture(answer: &IdentifyAnswer) -> Plot {
-    let line =
-        |name: &str,
-         color,
-         of: &dyn Fn(&kinetostat_identification::PostureResiduals) -> Option<f64>| {
-            let numbered = (1..).zip(&answer.found.residuals);
-            let points = numbered.filter_map(|(i, r): (i32, _)| Some((f64::from(i), of(r)?)));
-            PlotLine::solid(name, color, points.collect())
-        };
-    Plot {
-        title: format!(
-            "{}: residuals of {} postures",
-            answer.model, answer.found.postures
-        ),
-        x_label: "posture, in the order of the table".to_owned(),
-        y_label: "root mean square, standard deviations of a reading".to_owned(),
-        lines: vec![
-            line("the model as it was", 1, &|r| Some(r.before)),
-            line("identified", 0, &|r| Some(r.after)),
-            line("identified from all other postures", 2, &|r| r.left_out),
-        ],
-        marks: Vec::new(),
-    }
 }

@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use kinetostat_identification::{IdentifiedNumber, Knowledge};
+use kinetostat::number::larger;
+use kinetostat_identification::{ErrorAtWork, IdentifiedNumber, Knowledge};
 
 use crate::identify::answer::IdentifyAnswer;
 use crate::ui::layout::{columns, item, wrapped};
@@ -10,47 +11,12 @@ use crate::ui::numbers::{fixed, number, triple};
 
 pub(crate) fn answer_text(a: &IdentifyAnswer) -> String {
     let found = &a.found;
-    let mut out = wrapped(
-        &format!(
-            "{} ({}): {} from {} in {} ({}{}{})",
-            a.model,
-            a.model_source,
-            counted(found.numbers.len(), "number"),
-            counted(found.readings, "reading"),
-            counted(found.postures, "posture"),
-            a.measurements,
-            if a.small_loads { ", small loads" } else { "" },
-            if a.robust { ", robust" } else { "" },
-        ),
-        0,
-    );
-    let left_out = match found.rms_left_out_mm {
-        Some(rms) => format!(
-            "; {} mm in a posture that is not among those fitted",
-            fixed(rms, 4)
-        ),
-        None => String::new(),
-    };
-    out.push_str(&wrapped(
-        &format!(
-            "Of displacements of {} mm (root mean square) the model as it was leaves {} mm, the identified one {} mm{left_out}.",
-            fixed(found.rms_reading_mm, 4),
-            fixed(found.rms_before_mm, 4),
-            fixed(found.rms_after_mm, 4),
-        ),
-        0,
-    ));
-    if let Some(i) = &a.instrument {
-        out.push_str(&wrapped(
-            &format!(
-                "The instrument stands at {} mm, turned by the rotation vector {} deg; its {} places without a load are {} mm from those of the model.",
-                triple(i.position_mm, |x| fixed(x, 1)),
-                triple(i.rotation_vector_deg, |x| fixed(x, 3)),
-                i.places,
-                fixed(i.left_mm, 2)
-            ),
-            0,
-        ));
+    let mut out = String::new();
+    for sentence in sentences(a) {
+        out.push_str(&wrapped(&sentence, 0));
+    }
+    if !a.work.is_empty() {
+        out.push_str(&wrapped(&of_work(a), 0));
     }
     out.push('\n');
     out.push_str(&columns(&rows(found.numbers.iter()), 2));
@@ -63,11 +29,79 @@ pub(crate) fn answer_text(a: &IdentifyAnswer) -> String {
     out
 }
 
+/// What was done, and what came of it.
+pub(crate) fn sentences(a: &IdentifyAnswer) -> Vec<String> {
+    let found = &a.found;
+    let left_out = match found.rms_left_out_mm {
+        Some(rms) => format!(
+            "; {} mm in a posture that is not among those fitted",
+            fixed(rms, 4)
+        ),
+        None => String::new(),
+    };
+    let mut said = vec![
+        format!(
+            "{} ({}): {} from {} in {} ({}{}{})",
+            a.model,
+            a.model_source,
+            counted(found.numbers.len(), "number"),
+            counted(found.readings, "reading"),
+            counted(found.postures, "posture"),
+            a.measurements,
+            if a.small_loads { ", small loads" } else { "" },
+            if a.robust { ", robust" } else { "" },
+        ),
+        format!(
+            "Of displacements of {} mm (root mean square) the model as it was leaves {} mm, the identified one {} mm{left_out}.",
+            fixed(found.rms_reading_mm, 4),
+            fixed(found.rms_before_mm, 4),
+            fixed(found.rms_after_mm, 4),
+        ),
+    ];
+    said.extend(a.instrument.as_ref().map(|i| {
+        format!(
+            "The instrument stands at {} mm, turned by the rotation vector {} deg; its {} places without a load are {} mm from those of the model.",
+            triple(i.position_mm, |x| fixed(x, 1)),
+            triple(i.rotation_vector_deg, |x| fixed(x, 3)),
+            i.places,
+            fixed(i.left_mm, 2)
+        )
+    }));
+    if found.resamples > 0 {
+        said.push(format!(
+            "The intervals are those of {} fits to postures drawn from the measured ones.",
+            found.resamples
+        ));
+    }
+    said
+}
+
+/// What the numbers are good for along the program of a job.
+pub(crate) fn of_work(a: &IdentifyAnswer) -> String {
+    let largest = |of: &dyn Fn(&ErrorAtWork) -> f64| {
+        let each = a.work.iter().map(|w| of(&w.error));
+        fixed(each.fold(0.0, larger), 4)
+    };
+    let misfit = match a.found.rms_left_out_mm {
+        Some(rms) => format!(
+            " What no numbers of this model describe comes on top: {} mm in a posture that was not fitted.",
+            fixed(rms, 4)
+        ),
+        None => String::new(),
+    };
+    format!(
+        "Along the program the load moves the tool by up to {} mm; compensated with the model as it was, up to {} mm are left, with the identified one less than {} mm with a confidence of 95 %.{misfit}",
+        largest(&|e| e.displacement_mm),
+        largest(&|e| e.before_mm),
+        largest(&|e| e.after_mm),
+    )
+}
+
 fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-fn rows<'a>(numbers: impl Iterator<Item = &'a IdentifiedNumber>) -> Vec<Vec<String>> {
+pub(crate) fn rows<'a>(numbers: impl Iterator<Item = &'a IdentifiedNumber>) -> Vec<Vec<String>> {
     let head = [
         "number",
         "unit",

@@ -24,6 +24,7 @@ use crate::machine::units::unit;
 use crate::options::{number, vector, whole};
 use crate::place::joints::{self, JointValue, Named};
 use crate::plan_measurement::answer::{PlanAnswer, PlanRow, PlannedNumber};
+use crate::program::work::work_of_job;
 use crate::ui::csv_table::{cell, written};
 use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::result_form::ResultForm;
@@ -86,10 +87,14 @@ pub(crate) struct PlanMeasurementArgs {
     /// The same along z
     #[arg(long, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true, value_parser = number, help_heading = "Room")]
     pub(crate) z: Option<Vec<f64>>,
-    /// Joints of a posture in which the machine will work, as in A1=10,A2=-90; the error left there is made small. Once for each
-    #[arg(long, value_name = "NAME=VALUE,...", help_heading = "What it is for")]
+    /// Where the machine will work: a job, or joints as in A1=10,A2=-90 (once for each posture). The error left there is made small
+    #[arg(
+        long,
+        value_name = "JOB|NAME=VALUE,...",
+        help_heading = "What it is for"
+    )]
     pub(crate) work: Vec<String>,
-    /// Force on the tool at work, N, base axes
+    /// Force on the tool at these joints, N, base axes; a job has its own
     #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true, value_parser = number, requires = "work", help_heading = "What it is for")]
     pub(crate) force: Option<Vec<f64>>,
     /// Without --work: what is made small [default: average]
@@ -121,6 +126,8 @@ Examples:
   kinetostat plan-measurement my_robot.toml --pull-n 1000 --count 12 \\
       --tracker 4000 -3000 1000 --work A1=0,A2=-90,A3=90,A4=0,A5=90,A6=0 \\
       --force 300 0 -500 --csv measure.csv
+  kinetostat plan-measurement my_robot.toml --mass-kg 150 --work milling.toml \\
+      --csv measure.csv
   kinetostat identify my_robot.toml --measured measure.csv -o identified.toml
 
 Exit codes:
@@ -146,7 +153,8 @@ impl From<PlanError> for Failure {
 pub(crate) fn run(args: &PlanMeasurementArgs) -> Answer<()> {
     let (model, path) = InputFiles::default().model(&args.model, Path::new(""))?;
     model.require_stiffness()?;
-    let inputs: Vec<PathBuf> = path.into_iter().collect();
+    let mut inputs: Vec<PathBuf> = path.into_iter().collect();
+    inputs.extend(job_of_work(args)?.map(Path::to_owned));
     let mut claimed = ClaimedFiles::claim(&args.outputs, &inputs)?;
     let sheet = args
         .sheet
@@ -304,6 +312,16 @@ fn loads(args: &PlanMeasurementArgs, model: &Model) -> Answer<Vec<TestLoad>> {
     }
 }
 
+/// The job of `--work`; joints have `=`.
+fn job_of_work(args: &PlanMeasurementArgs) -> Answer<Option<&Path>> {
+    match args.work.iter().find(|words| !words.contains('=')) {
+        Some(_) if args.work.len() > 1 || args.force.is_some() => Err(ErrorCode::Conflict.failure(
+            "--work with a job states postures and loads itself: leave out --force and other --work",
+        )),
+        found => Ok(found.map(Path::new)),
+    }
+}
+
 fn purpose(args: &PlanMeasurementArgs, model: &Model) -> Answer<Purpose> {
     if args.work.is_empty() {
         return Ok(match args.aim {
@@ -311,6 +329,11 @@ fn purpose(args: &PlanMeasurementArgs, model: &Model) -> Answer<Purpose> {
             Some(Aim::Determinant) => Purpose::Determinant,
             Some(Aim::WorstDirection) => Purpose::WorstDirection,
         });
+    }
+    if let Some(job) = job_of_work(args)? {
+        let work = work_of_job(job, &args.model, model)?;
+        let places = work.into_iter().map(|place| place.observation);
+        return Ok(Purpose::Compensation(places.collect()));
     }
     let force = args
         .force

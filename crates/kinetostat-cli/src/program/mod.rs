@@ -19,3 +19,4 @@ pub(crate) mod report;
 pub(crate) mod solve;
 pub(crate) mod summary;
 pub(crate) mod uncertainty;
+pub(crate) mod work;

@@ -1,6 +1,7 @@
 //! `identify` and `plan-measurement`: from a plan to an identified model.
 
-use crate::common::run;
+use crate::common::{PROGRAM, run};
+use crate::every_option::PULLS;
 
 /// A table of what a machine with other stiffnesses shows in planned measurements.
 fn measured(here: &std::path::Path, plan: &str, model: &str) -> String {
@@ -163,4 +164,71 @@ fn faults_of_a_table_are_all_reported() {
         .collect();
     assert_eq!(at, [(2, Some("dx_mm")), (3, None)], "{report}");
     assert_eq!(errors[0]["found"], "one");
+}
+
+#[test]
+fn spreadsheets_and_parquet_say_what_csv_says() {
+    let here = tempfile::tempdir().expect("a directory");
+    let here = here.path();
+    // Both were written by pandas.
+    let sheet = include_bytes!("common/pulls.xlsx");
+    let parquet = include_bytes!("common/pulls.parquet");
+    for (name, bytes) in [
+        ("pulls.csv", PULLS.as_bytes()),
+        ("pulls.xlsx", sheet),
+        ("pulls.parquet", parquet),
+        ("broken.xlsx", &sheet[..2000]),
+    ] {
+        std::fs::write(here.join(name), bytes).expect("a table");
+    }
+    let said = |name: &str| {
+        let said = run(here, &["identify", "heavy_6r", "--measured", name]).answered();
+        said.out.replace(name, "the table")
+    };
+    let csv = said("pulls.csv");
+    assert_eq!(said("pulls.xlsx"), csv);
+    assert_eq!(said("pulls.parquet"), csv);
+    let broken = run(here, &["identify", "heavy_6r", "--measured", "broken.xlsx"]);
+    assert_eq!(broken.code, 1, "{}", broken.err);
+    assert!(broken.err.contains("save it as CSV"), "{}", broken.err);
+}
+
+#[test]
+fn the_work_of_a_job_decides_postures_and_is_judged() {
+    let here = tempfile::tempdir().expect("a directory");
+    let here = here.path();
+    let job = "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"part.ngc\"\n[placement]\npart_origin_mm = [1300, 0, 800]\n[load]\nforce_n = [300, 200, -400]\nweight = \"all\"\n";
+    for (name, text) in [
+        ("job.toml", job),
+        ("part.ngc", PROGRAM),
+        ("pulls.csv", PULLS),
+    ] {
+        std::fs::write(here.join(name), text).expect("a file");
+    }
+    let json = |words: &str| -> serde_json::Value {
+        let words: Vec<&str> = words.split(' ').collect();
+        serde_json::from_str(&run(here, &words).answered().out).expect("JSON")
+    };
+    let plan = "plan-measurement heavy_6r --pull-n 800 --count 6 --candidates 40 --json";
+    let (for_job, for_all) = (json(&format!("{plan} --work job.toml")), json(plan));
+    let left = for_job["left_error_mm"].as_f64().expect("a number");
+    assert!((1e-4..0.1).contains(&left), "{left}");
+    assert!(for_all["left_error_mm"].is_null());
+    assert_ne!(for_job["measurements"], for_all["measurements"]);
+
+    let found = json(
+        "identify heavy_6r --measured pulls.csv --prior-percent 10 --work job.toml --report r.html --pdf r.pdf --json",
+    );
+    let work = found["work"].as_array().expect("a list");
+    assert!(work.len() > 10, "{}", work.len());
+    for place in work {
+        let [displaced, before, after] = ["displacement_mm", "before_mm", "after_mm"]
+            .map(|key| place[key].as_f64().expect("a number"));
+        assert!(before < 0.5 * displaced && after < displaced, "{place}");
+    }
+    let report = std::fs::read_to_string(here.join("r.html")).expect("a report");
+    assert_eq!(report.matches("<img ").count(), 5);
+    assert!(!report.contains("<svg"), "pictures are images of their own");
+    let pdf = std::fs::read(here.join("r.pdf")).expect("a report");
+    assert!(pdf.starts_with(b"%PDF-"));
 }

@@ -5,6 +5,7 @@ use nalgebra::DMatrix;
 use super::criterion::DesignSettings;
 use super::error::DesignError;
 use super::problem::Problem;
+use crate::random::SplitMix64;
 
 /// Relative decrease of the value below which an exchange is rounding.
 const DECREASE: f64 = 1e-10;
@@ -195,19 +196,4 @@ fn drawn(weights: &[f64], problem: &Problem, random: &mut SplitMix64) -> Vec<usi
         chosen.push(x);
     }
     chosen
-}
-
-/// Generator of Steele, Lea and Flood (Fast splittable pseudorandom number generators, 2014).
-struct SplitMix64(u64);
-
-impl SplitMix64 {
-    /// Uniform in `[0, 1)`.
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^= z >> 31;
-        (z >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }

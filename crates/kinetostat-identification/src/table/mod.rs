@@ -156,17 +156,22 @@ pub fn observations(
             });
         }
         if let Some(position) = &row.read.position {
-            let unloaded: Vec<&Vector3<f64>> = beside
+            let unloaded: Vec<(&Vector3<f64>, f64)> = beside
                 .iter()
                 .filter(|other| !other.is_loaded() && other.marker == row.marker)
-                .filter_map(|other| other.read.position.as_ref())
+                .filter_map(|other| {
+                    let own = other.deviation.unwrap_or(DEVIATION);
+                    Some((other.read.position.as_ref()?, own))
+                })
                 .collect();
             match unloaded.len() {
                 0 => faults.push(fault("a position under a load, but none of the same marker in the same posture without one: add the unloaded reading (loads of zero), before and after the loaded one if you can")),
                 count => {
-                    let mean = unloaded.iter().copied().sum::<Vector3<f64>>() / count as f64;
+                    let mean = unloaded.iter().map(|(place, _)| *place).sum::<Vector3<f64>>()
+                        / count as f64;
                     // The unloaded mean has an error of its own.
-                    let both = deviation * (1.0 + 1.0 / count as f64).sqrt();
+                    let squares = unloaded.iter().map(|(_, own)| own * own).sum::<f64>();
+                    let both = deviation.hypot(squares.sqrt() / count as f64);
                     readings.extend(Reading::displacement(row.marker, &(position - mean), both));
                 }
             }

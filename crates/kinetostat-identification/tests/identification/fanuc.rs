@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use kinetostat_identification::{
-    Axes, Finding, FitOptions, Identification, Theory, Unknowns, identification, observations,
-    read_table,
+    Axes, Finding, FitOptions, Identification, Observation, Theory, Unknowns, identification,
+    observations, read_table,
 };
 use kinetostat_model::Model;
 use nalgebra::Vector3;
@@ -88,7 +88,13 @@ fn table() -> Option<String> {
     Some(out)
 }
 
-fn identified(tilts: bool) -> anyhow::Result<Option<Identification>> {
+const OPTIONS: FitOptions = FitOptions {
+    theory: Theory::SmallLoads,
+    robust: false,
+    prior: None,
+};
+
+fn question(tilts: bool) -> anyhow::Result<Option<(Unknowns, Vec<Observation>)>> {
     let Some(text) = table() else { return Ok(None) };
     let model = arm(tilts)?;
     let rows =
@@ -99,13 +105,12 @@ fn identified(tilts: bool) -> anyhow::Result<Option<Identification>> {
         true => &["joints", "chain.arm.tilt*"],
         false => &["joints"],
     };
-    let unknowns = Unknowns::matching(&model, patterns)?;
-    let options = FitOptions {
-        theory: Theory::SmallLoads,
-        robust: false,
-        prior: None,
-    };
-    Ok(Some(identification(&unknowns, &observations, &options)?))
+    Ok(Some((Unknowns::matching(&model, patterns)?, observations)))
+}
+
+fn identified(tilts: bool) -> anyhow::Result<Option<Identification>> {
+    let found = question(tilts)?.map(|(unknowns, o)| identification(&unknowns, &o, &OPTIONS));
+    Ok(found.transpose()?)
 }
 
 #[test]
@@ -168,5 +173,27 @@ fn tilts_of_joints_and_base_explain_more() -> Outcome {
         .filter(|f| matches!(f, Finding::Rigid { .. }))
         .count();
     assert!(rigid > 0, "{:?}", found.findings);
+    Ok(())
+}
+
+#[test]
+fn resampled_postures_scatter_as_the_covariance_by_postures_says() -> Outcome {
+    let Some((unknowns, observations)) = question(false)? else {
+        return Ok(());
+    };
+    let found = identification(&unknowns, &observations, &OPTIONS)?;
+    let resampled = found.clone().with_resampled_intervals(&unknowns, 2000);
+    assert!(resampled.resamples > 1990, "{}", resampled.resamples);
+    let again = found.clone().with_resampled_intervals(&unknowns, 2000);
+    // Width of an interval of compliances; the last joint may be rigid.
+    let width = |of: &Identification, k: usize| match of.numbers[k].interval {
+        Some([Some(low), Some(high)]) => 1.0 / low - 1.0 / high,
+        _ => f64::NAN,
+    };
+    for k in 0..5 {
+        let ratio = width(&resampled, k) / width(&found, k);
+        assert!((0.8..1.1).contains(&ratio), "{k}: {ratio}");
+        assert_eq!(resampled.numbers[k].interval, again.numbers[k].interval);
+    }
     Ok(())
 }

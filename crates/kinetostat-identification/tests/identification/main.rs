@@ -15,3 +15,4 @@ mod machines;
 mod regressors;
 mod support;
 mod tables;
+mod work;

@@ -38,6 +38,11 @@ pub(crate) enum Block {
     /// Names with a size and an explanation.
     Remarks(Vec<Remark>),
     List(Vec<String>),
+    /// A drawing (SVG) and what it shows; a PDF has none.
+    Picture {
+        svg: String,
+        shows: String,
+    },
     Table(Table),
     /// Room for names, dates and signatures: what is to be written on each line.
     Signatures(Vec<[String; 3]>),
@@ -157,6 +162,7 @@ impl Contents {
                         .map(|r| format!("{}: {}: {}", r.name, r.size, r.text)),
                 ),
                 Block::List(items) => lines.extend(items.iter().cloned()),
+                Block::Picture { shows, .. } => lines.push(shows.clone()),
                 Block::Table(table) => {
                     let heads: Vec<&str> = table.columns.iter().map(|c| c.head.as_str()).collect();
                     lines.push(heads.join(" | "));

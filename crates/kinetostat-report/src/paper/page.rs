@@ -11,7 +11,7 @@ h1{font-size:1.5em}h1 small{display:block;font-size:.6em;color:#555;font-weight:
 .box{border:1px solid #888;border-left:6px solid #888;padding:.6em 1em}.good{border-left-color:#1a7f37}.attention{border-left-color:#b35900}.stop{border-left-color:#b00020}\
 dl{display:grid;grid-template-columns:14em 1fr;gap:.2em 1em}dt{color:#555}dd{margin:0;overflow-wrap:anywhere}dd span{display:block}\
 table{border-collapse:collapse;width:100%;font-size:.9em}th,td{text-align:left;padding:.2em .5em;border-bottom:1px solid #ccc;vertical-align:top;overflow-wrap:anywhere}\
-.right{text-align:right}.whole{white-space:nowrap;overflow-wrap:normal}.note{color:#555;font-size:.9em}.sign{margin-top:2.5em;border-top:1px solid #111;padding-top:.2em}\
+img{display:block;width:100%;margin:1em 0;color-scheme:light}.right{text-align:right}.whole{white-space:nowrap;overflow-wrap:normal}.note{color:#555;font-size:.9em}.sign{margin-top:2.5em;border-top:1px solid #111;padding-top:.2em}\
 @media print{h2{break-after:avoid}tr,.box{break-inside:avoid}}";
 
 /// The page; every text is escaped.
@@ -21,7 +21,7 @@ pub(crate) fn html(contents: &Contents) -> String {
         format!("<meta name=\"dcterms.date\" content=\"{day}\">\n")
     });
     let mut out = format!(
-        "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n{}<title>{}</title>\n<style>{STYLE}{}</style>\n</head>\n<body>\n<h1><small>{}</small>{}</h1>\n",
+        "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n{}<title>{}</title>\n<style>{STYLE}{}</style>\n</head>\n<body>\n<h1><small>{}</small>{}</h1>\n",
         contents.language.code(),
         date.collect::<String>(),
         escape(&contents.title),
@@ -87,6 +87,12 @@ fn block(out: &mut String, block: &Block) {
             writeln!(out, "<dl>\n{}</dl>", all.collect::<String>())
         }
         Block::List(items) => writeln!(out, "<ul>{}</ul>", each(items, "li")),
+        Block::Picture { svg, shows } => writeln!(
+            out,
+            "<img alt=\"{}\" src=\"data:image/svg+xml,{}\">",
+            escape(shows),
+            in_address(svg)
+        ),
         Block::Table(table) => writeln!(out, "{}", rows(table)),
         Block::Signatures(all) => {
             let lines = all.iter().map(|[who, name, signature]| {
@@ -100,6 +106,20 @@ fn block(out: &mut String, block: &Block) {
             writeln!(out, "{}", lines.collect::<String>())
         }
     };
+}
+
+/// A drawing within an attribute: an image has a style sheet of its own, which does not reach the page.
+fn in_address(svg: &str) -> String {
+    let mut out = String::with_capacity(svg.len());
+    for letter in svg.chars() {
+        match letter {
+            '%' | '#' | '"' | '<' | '>' | '&' | '\n' => {
+                let _ = write!(out, "%{:02X}", u32::from(letter));
+            }
+            other => out.push(other),
+        }
+    }
+    out
 }
 
 fn each(texts: &[String], element: &str) -> String {

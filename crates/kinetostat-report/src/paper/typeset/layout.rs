@@ -184,6 +184,7 @@ impl<'a> Setter<'a> {
                     self.y += 2.0;
                 }
             }
+            Block::Picture { .. } => {}
             Block::Table(table) => self.table(table),
             Block::Signatures(all) => self.signatures(all),
         }
