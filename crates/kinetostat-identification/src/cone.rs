@@ -139,7 +139,14 @@ impl ConstrainedRows<'_> {
     /// # Errors
     /// [`NotSolved`] if the gap cannot be closed, as for numbers that are not finite.
     pub fn solve(&self) -> Result<Constrained, NotSolved> {
-        let size = self.values.norm();
+        // Unknowns without a constraint count from the reference: a place in metres is a million times its error, and the squares of
+        // the readings would round away those of the residuals.
+        let mut shift = self.reference.clone();
+        for column in self.constraints.iter().flat_map(|c| c.columns()) {
+            shift[*column] = 0.0;
+        }
+        let values = self.values - self.matrix * &shift;
+        let size = values.norm();
         let size = if size > 0.0 { size } else { 1.0 };
         let mut sizes = self.sizes.clone();
         for constraint in self.constraints {
@@ -160,8 +167,8 @@ impl ConstrainedRows<'_> {
         let longest = found.largest().powi(2);
         let free = found.null_space(UNSEEN);
         let drawn = &free * free.transpose() * (DRAWN * longest.max(f64::MIN_POSITIVE));
-        let reference = self.reference.component_div(&sizes);
-        let values = self.values / size;
+        let reference = (self.reference - &shift).component_div(&sizes);
+        let values = values / size;
         let curvature = scaled.tr_mul(&scaled);
         let problem = Scaled {
             slope: scaled.tr_mul(&values),
@@ -173,7 +180,7 @@ impl ConstrainedRows<'_> {
             constraints: self.constraints,
         };
         let optimum = problem.optimum()?;
-        let mut estimate = optimum.0.component_mul(&sizes);
+        let mut estimate = shift + optimum.0.component_mul(&sizes);
         let at_bound: Vec<usize> = self
             .constraints
             .iter()

@@ -161,7 +161,7 @@ fn weighted(
     let (triangle, right) = reduced(postures, weights);
     let left = &right - &triangle * from;
     let unknowns = sizes.len();
-    let mut scaled = DMatrix::from_fn(triangle.nrows(), unknowns, |i, j| {
+    let scaled = DMatrix::from_fn(triangle.nrows(), unknowns, |i, j| {
         triangle[(i, j)] * sizes[j]
     });
     let (inverse, rank) = pseudo_inverse(&scaled);
@@ -176,31 +176,19 @@ fn weighted(
             reference: from,
             sizes,
         };
-        let solved = problem.solve()?;
-        estimate = solved.estimate;
-        let zeros = constraints
-            .iter()
-            .zip(&solved.at_bound)
-            .filter(|(_, count)| **count > 0);
-        for (constraint, _) in zeros {
-            at_bound.push(constraint.columns()[0]);
-            if let Constraint::NonNegative(column) = constraint {
-                scaled.column_mut(*column).fill(0.0);
-            }
-        }
-        (held, _) = pseudo_inverse(&scaled);
-        // The rest without the barrier, if it meets its constraints by itself.
-        let mut start = from.clone();
-        at_bound.iter().for_each(|k| start[*k] = 0.0);
-        let exact = &start + (&held * (&right - &triangle * &start)).component_mul(sizes);
-        let others = constraints
-            .iter()
-            .filter(|c| !at_bound.contains(&c.columns()[0]));
-        let is_exact = constraints
-            .iter()
-            .all(|c| matches!(c, Constraint::NonNegative(_)));
-        if is_exact && others.into_iter().all(|c| c.holds(&exact)) {
-            estimate = exact;
+        if let Some(found) = with_zeros(&problem, &scaled) {
+            (estimate, held, at_bound) = (found.estimate, found.inverse, found.zeros);
+        } else {
+            let solved = problem.solve()?;
+            estimate = solved.estimate;
+            let each = constraints.iter().zip(&solved.at_bound);
+            let zeros = each.filter(|(_, count)| **count > 0).map(|(c, _)| c);
+            at_bound = zeros.clone().map(|c| c.columns()[0]).collect();
+            let single = zeros.filter_map(|c| match c {
+                Constraint::NonNegative(column) => Some(*column),
+                Constraint::PositiveSemidefinite(_) => None,
+            });
+            held = without(&scaled, &single.collect::<Vec<_>>());
         }
     }
     let normal = |inverse: &DMatrix<f64>| {
@@ -221,6 +209,57 @@ fn weighted(
         at_bound,
         estimate,
     })
+}
+
+/// An optimum with some unknowns at zero, and the pseudo-inverse of the scaled rows without these.
+struct WithZeros {
+    estimate: DVector<f64>,
+    inverse: DMatrix<f64>,
+    zeros: Vec<usize>,
+}
+
+/// Exchanges of zeros at most; a few are usual.
+const MOST_EXCHANGES: usize = 30;
+
+/// The optimum where every constraint is that of a single compliance, to the last digit: all that are negative are held at zero and all
+/// that are pulled from there are let go, until none is either (primal-dual active sets; Hintermueller, Ito and Kunisch 2002). None where
+/// that goes round in a circle, and for matrices.
+fn with_zeros(problem: &ConstrainedRows<'_>, scaled: &DMatrix<f64>) -> Option<WithZeros> {
+    let single = problem.constraints.iter().map(|c| match c {
+        Constraint::NonNegative(column) => Some(*column),
+        Constraint::PositiveSemidefinite(_) => None,
+    });
+    let single: Vec<usize> = single.collect::<Option<_>>()?;
+    let mut zeros: Vec<usize> = Vec::new();
+    for _ in 0..MOST_EXCHANGES {
+        let inverse = without(scaled, &zeros);
+        let mut start = problem.reference.clone();
+        zeros.iter().for_each(|k| start[*k] = 0.0);
+        let left = problem.values - problem.matrix * &start;
+        let estimate = start + (&inverse * left).component_mul(problem.sizes);
+        let residual = problem.matrix * &estimate - problem.values;
+        let is_zero = |k: &&usize| match zeros.contains(k) {
+            true => problem.matrix.column(**k).dot(&residual) >= 0.0,
+            false => estimate[**k] < 0.0,
+        };
+        let next: Vec<usize> = single.iter().filter(is_zero).copied().collect();
+        if next == zeros {
+            return Some(WithZeros {
+                estimate,
+                inverse,
+                zeros,
+            });
+        }
+        zeros = next;
+    }
+    None
+}
+
+/// Pseudo-inverse of a matrix without some of its columns.
+fn without(matrix: &DMatrix<f64>, columns: &[usize]) -> DMatrix<f64> {
+    let mut rest = matrix.clone();
+    columns.iter().for_each(|k| rest.column_mut(*k).fill(0.0));
+    pseudo_inverse(&rest).0
 }
 
 /// Pseudo-inverse and rank of a matrix whose columns are scaled.

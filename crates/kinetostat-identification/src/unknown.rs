@@ -17,8 +17,9 @@ use crate::springs::{difference, drive_coordinates};
 /// Components of a 6 x 6 matrix as paths name them.
 const COMPONENTS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
-/// Compliance of a spring that is rigid, relative to what the model said.
-const RIGID: f64 = 1e-6;
+/// Compliance of a spring that is rigid, relative to what the model said. A millionth would leave the equilibria of heavy arms less exact
+/// than the fit needs.
+const RIGID: f64 = 1e-4;
 
 /// How an unknown enters the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -221,7 +222,7 @@ impl Unknowns {
         self.list.iter().enumerate().filter_map(own).collect()
     }
 
-    /// The unknowns with the least compliance that a model can have: a rigid spring is a million times as stiff as it was.
+    /// The unknowns with the least compliance that a model can have: a rigid spring is ten thousand times as stiff as it was.
     pub(crate) fn buildable(&self, values: &DVector<f64>) -> DVector<f64> {
         let mut out = values.clone();
         for (i, Unknown { form, size, .. }) in self.list.iter().enumerate() {

@@ -14,7 +14,7 @@ use kinetostat_diagnostic::{Diagnostic, ErrorCode, Location};
 use kinetostat_identification::{
     Axes, DEVIATION, FitOptions, Identification, IdentificationError, MeasuredRow, Observation,
     TableFault, Theory, Unknowns, identification, identified_model, into_base, observations,
-    read_table, uncertainty_file,
+    places, read_table, uncertainty_file,
 };
 use kinetostat_model::Model;
 
@@ -43,7 +43,7 @@ pub(crate) struct IdentifyArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) measured: PathBuf,
     /// Numbers to identify: paths as in `chain.arm.A2.stiffness_n_m_per_rad`, * for any text;
-    /// `joints` for the stiffness of every drive
+    /// `joints` for the stiffness of every drive; `geometry` for errors of the links, from places
     #[arg(long, value_name = "NUMBER", num_args = 1.., default_value = "joints")]
     pub(crate) numbers: Vec<String>,
     /// Readings are in the instrument's own frame: find it from places (x_mm, ...) without a load
@@ -108,6 +108,8 @@ Examples:
       --uncertain-out spread.toml
   kinetostat identify my_robot.toml --measured pulls.xlsx --work milling.toml \\
       --report pulls.html
+  kinetostat identify my_robot.toml --measured places.csv \\
+      --numbers joints geometry -o identified.toml
   kinetostat identify my_robot.toml --measured pulls.csv --robust \\
       --numbers joints chain.arm.tilt*.stiffness_n_m_per_rad --prior-percent 50
 
@@ -162,6 +164,12 @@ pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
     let pdf_file = claim("report", &args.pdf)?;
     let patterns: Vec<&str> = args.numbers.iter().map(String::as_str).collect();
     let unknowns = Unknowns::matching(&model, &patterns)?;
+    let is_geometry = (args.numbers.iter()).any(|n| n == "geometry" || n.starts_with("deviation."));
+    if is_geometry && args.small_loads {
+        return Err(ErrorCode::Conflict.failure(
+            "--small-loads knows displacements only, and geometry is identified from places: leave it out",
+        ));
+    }
     let unknowns = match args.friction {
         true => unknowns.with_friction(&model),
         false => unknowns,
@@ -176,7 +184,15 @@ pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
         false => None,
     };
     let gravity = model.mechanism.gravity();
-    let observations = observations(&rows, &gravity).map_err(|faults| of_table(&name, &faults))?;
+    let observations = match is_geometry {
+        true => places(&rows, &gravity),
+        false => observations(&rows, &gravity),
+    };
+    let observations = observations.map_err(|faults| of_table(&name, &faults))?;
+    let unknowns = match is_geometry {
+        true => unknowns.with_markers(&observations),
+        false => unknowns,
+    };
     let options = FitOptions {
         theory: if args.small_loads {
             Theory::SmallLoads

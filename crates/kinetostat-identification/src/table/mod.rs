@@ -73,11 +73,11 @@ fn contradictions(rows: &[MeasuredRow], gravity: &Vector3<f64>) -> Vec<TableFaul
     faults
 }
 
-/// Observations of the places of markers, with and without a load, which the geometry is identified from. Displacements that the rows have
-/// beside them are not in it.
+/// Observations that the geometry is identified from: places of markers, with and without a load, and beside them the displacements, turns
+/// and gauges of [`observations`].
 ///
 /// # Errors
-/// Rows that contradict each other.
+/// Rows that contradict each other; displacements without a load.
 pub fn places(
     rows: &[MeasuredRow],
     gravity: &Vector3<f64>,
@@ -93,10 +93,17 @@ pub fn places(
             readings: Reading::place(row.marker, &place, deviation).into(),
         })
     };
-    match faults.is_empty() {
-        true => Ok(rows.iter().filter_map(observation).collect()),
-        false => Err(faults),
+    if !faults.is_empty() {
+        return Err(faults);
     }
+    let mut found: Vec<Observation> = rows.iter().filter_map(observation).collect();
+    let mut others = rows.to_vec();
+    others.iter_mut().for_each(|row| row.read.position = None);
+    others.retain(|row| row.read != Read::default());
+    if !others.is_empty() {
+        found.extend(observations(&others, gravity)?);
+    }
+    Ok(found)
 }
 
 /// Observations from rows: displacements as they are, and positions under a load less the mean of those of the same marker in the

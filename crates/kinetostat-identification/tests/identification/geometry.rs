@@ -236,6 +236,31 @@ fn the_identified_geometry_is_a_model() -> Result<()> {
 }
 
 #[test]
+fn a_joint_that_a_weight_hardly_turns_does_not_keep_the_fit_from_settling() -> Result<()> {
+    // Only the errors of the geometry let a weight turn joint 1, which is rigid here: noise decides whether it seems to give way.
+    let problem = drawn(DEVIATION)?;
+    let mut read = problem.read.clone();
+    let all = Unknowns::matching(&h6(true), &["joints", "geometry"])?.with_markers(&read);
+    let truth = problem.truth.clone().insert_row(0, 1e-4 * H6[0]);
+    let exact = predict(&all, &truth, &read, Theory::Loaded)?;
+    let mut random = Random::new(1);
+    let mut rigid = 0;
+    for _ in 0..6 {
+        put(&mut read, &exact, &mut |_| DEVIATION * random.normal());
+        let found = identification(&all, &read, &OPTIONS)?;
+        let first = &found.numbers[0];
+        assert!(first.at_bound || first.knowledge == Knowledge::Weak);
+        rigid += usize::from(first.at_bound);
+        for (number, truth) in found.numbers.iter().zip(truth.iter()).take(4).skip(1) {
+            let identified = number.identified.context("no value")?;
+            assert!((identified * truth - 1.0).abs() < 0.03, "{number:?}");
+        }
+    }
+    assert!((1..6).contains(&rigid), "{rigid} of 6");
+    Ok(())
+}
+
+#[test]
 fn what_places_cannot_tell_is_refused() -> Result<()> {
     let read = places(&postures(&mut Random::new(7), 1), 0.0);
     let model = h6(true);
