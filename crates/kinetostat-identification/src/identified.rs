@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::geometry::is_geometry;
 use crate::identifiability::Knowledge;
 
 /// A number of the model as it was identified.
@@ -36,6 +37,14 @@ pub struct IdentifiedNumber {
     /// The combination that is known where the number alone is not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub known_combination: Option<String>,
+}
+
+impl IdentifiedNumber {
+    /// True for an error of the geometry and for the place of a marker: one of many that say only together where the tool is.
+    #[must_use]
+    pub fn is_geometry(&self) -> bool {
+        is_geometry(&self.number)
+    }
 }
 
 /// Readings of one posture.

@@ -33,7 +33,7 @@ pub(crate) fn report(
     let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
     out.table(&heads[..2], &heads[2..], rows);
     let combined = |n: &IdentifiedNumber| {
-        let known = n.known_combination.as_ref()?;
+        let known = n.known_combination.as_ref().filter(|_| !n.is_geometry())?;
         Some(format!("of {} only this is known: {known}", n.number))
     };
     out.list(found.numbers.iter().filter_map(combined));
@@ -108,6 +108,7 @@ pub(crate) fn residuals(a: &IdentifyAnswer) -> Plot {
 fn explained(found: &Identification) -> Bars {
     let bars = found.numbers.iter().map(|n| {
         let short = n.number.trim_start_matches("chain.");
+        let short = short.trim_start_matches("deviation.");
         Bar {
             name: short.to_owned(),
             value: n.explains_mm,

@@ -19,7 +19,23 @@ pub(crate) fn answer_text(a: &IdentifyAnswer) -> String {
         out.push_str(&wrapped(&of_work(a), 0));
     }
     out.push('\n');
-    out.push_str(&columns(&rows(found.numbers.iter()), 2));
+    let (geometry, others): (Vec<_>, Vec<_>) = found.numbers.iter().partition(|n| n.is_geometry());
+    if !others.is_empty() {
+        out.push_str(&columns(&rows(others.into_iter()), 2));
+    }
+    if !geometry.is_empty() {
+        let largest = |unit: &str| {
+            let own = geometry.iter().filter(|n| n.unit == unit);
+            let sizes = own.filter_map(|n| Some((n.identified? - n.before).abs()));
+            number(sizes.fold(0.0, larger), 2)
+        };
+        out.push_str(&item(&format!(
+            "{} numbers of the geometry are changed by up to {} mm and {} deg; --json and --report list them",
+            geometry.len(),
+            largest("mm"),
+            largest("deg")
+        )));
+    }
     if !found.findings.is_empty() {
         out.push('\n');
     }

@@ -96,7 +96,10 @@ pub fn places(
     if !faults.is_empty() {
         return Err(faults);
     }
-    let mut found: Vec<Observation> = rows.iter().filter_map(observation).collect();
+    let mut found = Vec::new();
+    for own in rows.iter().filter_map(observation) {
+        add(&mut found, own);
+    }
     let mut others = rows.to_vec();
     others.iter_mut().for_each(|row| row.read.position = None);
     others.retain(|row| row.read != Read::default());
@@ -104,6 +107,18 @@ pub fn places(
         found.extend(observations(&others, gravity)?);
     }
     Ok(found)
+}
+
+/// Adds an observation: further markers of a posture under a load are read in the same equilibrium.
+fn add(all: &mut Vec<Observation>, own: Observation) {
+    let same = all.last_mut().filter(|last| {
+        (&last.posture, &last.commands, last.load, last.branch)
+            == (&own.posture, &own.commands, own.load, own.branch)
+    });
+    match same {
+        Some(last) => last.readings.extend(own.readings),
+        None => all.push(own),
+    }
 }
 
 /// Observations from rows: displacements as they are, and positions under a load less the mean of those of the same marker in the
@@ -183,7 +198,7 @@ pub fn observations(
                 }
             }
         }
-        found.push(Observation {
+        let own = Observation {
             posture: row.posture.clone(),
             commands: row.commands.clone(),
             load: row.load_under(gravity),
@@ -194,7 +209,8 @@ pub fn observations(
                 })
             }),
             readings,
-        });
+        };
+        add(&mut found, own);
     }
     if found.is_empty() && faults.is_empty() {
         faults.push(TableFault {
