@@ -25,9 +25,13 @@ def identify(
     friction: bool = False,
     prior_percent: float | None = None,
     robust: bool = False,
+    resamples: int | None = None,
     small_loads: bool = False,
+    work: _Path | None = None,
     out: _Path | None = None,
     uncertain_out: _Path | None = None,
+    report: _Path | None = None,
+    pdf: _Path | None = None,
     csv: _Path | None = None,
     plot: _Path | None = None,
     force_overwrite: bool = False,
@@ -47,7 +51,7 @@ def identify(
         Table of the measurements (CSV, see below)
     numbers : str | float | Sequence[str | float]
         Numbers to identify: paths as in `chain.arm.A2.stiffness_n_m_per_rad`, * for any text;
-        `joints` for the stiffness of every drive
+        `joints` for the stiffness of every drive; `geometry` for errors of the links, from places
     find_frame : bool
         Readings are in the instrument's own frame: find it from places (x_mm, ...) without a load
     sigma_mm : float
@@ -59,13 +63,22 @@ def identify(
         them
     robust : bool
         Readings far from the fit count less, so that a few bad ones spoil little
+    resamples : int
+        Intervals from fits to N drawings of as many postures (bootstrap), in place of Student's;
+        1000 are usual
     small_loads : bool
         Displacements in proportion to the load, without weights: as textbooks do
+    work : path
+        Job of the work that the machine is for: what is left along its program before and after
     out : path
         Model file with the identified numbers
     uncertain_out : path
         Their standard deviations and correlations, for `tolerance --uncertain` and `compensate
         --uncertain`
+    report : path
+        The report with pictures, as one HTML file
+    pdf : path
+        The report without pictures, as PDF
     csv : path
         All points as a table (CSV)
     plot : path
@@ -102,9 +115,13 @@ def identify(
         ("--friction", friction),
         ("--prior-percent", prior_percent),
         ("--robust", robust),
+        ("--resamples", resamples),
         ("--small-loads", small_loads),
+        ("--work", work),
         ("--out", out),
         ("--uncertain-out", uncertain_out),
+        ("--report", report),
+        ("--pdf", pdf),
         ("--csv", csv),
         ("--plot", plot),
         ("--force-overwrite", force_overwrite),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, Literal
 
 from kinetostat._running import answered
 
@@ -17,6 +17,7 @@ def import_urdf(
     *,
     base: str | float | None = None,
     tip: str | float | None = None,
+    flange_z: Literal["x", "y", "z"] | None = None,
     loops: _Path | None = None,
     passive: str | float | Sequence[str | float] | None = None,
     home: str | float | Sequence[str | float] | None = None,
@@ -40,6 +41,9 @@ def import_urdf(
         Link that stands; the root without it
     tip : str | float
         Link that carries the tool; needed where the tree has several ends
+    flange_z : Literal["x", "y", "z"]
+        Axis of the tip link that points out of the flange, where tools lie: x of `flange` in ROS, z
+        of `tool0`; without it, the frame of the tip is taken as it is
     loops : path
         Closed loops (TOML): what the proposed `constraint` element of a URDF says
     passive : str | float | Sequence[str | float]
@@ -80,6 +84,7 @@ def import_urdf(
         ("file", file),
         ("--base", base),
         ("--tip", tip),
+        ("--flange-z", flange_z),
         ("--loops", loops),
         ("--passive", passive),
         ("--home", home),

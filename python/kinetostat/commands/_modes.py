@@ -26,6 +26,7 @@ def modes(
     tool_length_mm: float | None = None,
     tool_mass_kg: float | None = None,
     tool_centre_of_mass_mm: Sequence[float] | None = None,
+    tool_inertia_kg_m2: Sequence[float] | None = None,
     force: Sequence[float] | None = None,
     moment: Sequence[float] | None = None,
     hold: str | float | None = None,
@@ -70,6 +71,9 @@ def modes(
         a job's tool
     tool_centre_of_mass_mm : Sequence[float]
         Its centre in the frame of the flange, mm; halfway to the tip without it
+    tool_inertia_kg_m2 : Sequence[float]
+        Its inertia about that centre in axes of the flange, kg m^2; a point without it. Products
+        carry their minus sign
     force : Sequence[float]
         Constant force on the tool's tip, N, about whose equilibrium the machine vibrates
     moment : Sequence[float]
@@ -118,6 +122,7 @@ def modes(
         ("--tool-length-mm", tool_length_mm),
         ("--tool-mass-kg", tool_mass_kg),
         ("--tool-centre-of-mass-mm", tool_centre_of_mass_mm),
+        ("--tool-inertia-kg-m2", tool_inertia_kg_m2),
         ("--force", force),
         ("--moment", moment),
         ("--hold", hold),

@@ -78,10 +78,10 @@ def plan_measurement(
     z : Sequence[float]
         The same along z
     work : str | float | Sequence[str | float]
-        Joints of a posture in which the machine will work, as in A1=10,A2=-90; the error left there
-        is made small. Once for each
+        Where the machine will work: a job, or joints as in A1=10,A2=-90 (once for each posture).
+        The error left there is made small
     force : Sequence[float]
-        Force on the tool at work, N, base axes
+        Force on the tool at these joints, N, base axes; a job has its own
     aim : Literal["average", "determinant", "worst-direction"]
         Without --work: what is made small [default: average]
     candidates : int
