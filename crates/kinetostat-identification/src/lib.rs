@@ -58,7 +58,7 @@ pub use prediction::{Prediction, Theory, predict};
 pub use result::{Identification, identification};
 pub use table::{
     COLUMNS, DEVIATION, InstrumentFrame, MOST_FAULTS, MeasuredRow, NoFrame, Read, TURN_DEVIATION,
-    TableFault, into_base, observations, places, read_table,
+    TableFault, into_base, observations, places, read_postures, read_table,
 };
 pub use unknown::{Form, Unknown, Unknowns};
 pub use work::ErrorAtWork;

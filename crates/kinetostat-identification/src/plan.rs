@@ -56,7 +56,9 @@ pub struct PlanTask<'a> {
     pub deviation: f64,
     /// Number of measurements.
     pub count: usize,
-    /// Number of postures to choose from.
+    /// Commands (m or rad) of the postures to choose from; where there are none, postures are drawn.
+    pub given: Vec<Vec<f64>>,
+    /// Number of postures that are drawn.
     pub candidates: usize,
     /// Other numbers draw other postures.
     pub seed: u32,
@@ -116,7 +118,10 @@ const HAND: f64 = 0.5;
 pub fn plan(task: &PlanTask<'_>) -> Result<Plan, PlanError> {
     let mechanism = &task.model.mechanism;
     let axes = Axes::of(task.model);
-    let (postures, passed_over) = drawn(task, mechanism)?;
+    let (postures, passed_over) = match task.given.is_empty() {
+        true => drawn(task, mechanism)?,
+        false => possible(task, mechanism)?,
+    };
     let observations = task.observations(&postures);
     let sizes = task.unknowns.sizes();
     let nominal = task.unknowns.nominal();
@@ -225,6 +230,23 @@ pub enum PlanError {
     /// No reading depends on any number.
     #[error("no reading depends on any of the numbers: load the tool in other directions")]
     NothingSeen,
+}
+
+/// Those of the given postures that can be taken, and the number of those that were passed over.
+fn possible(
+    task: &PlanTask<'_>,
+    mechanism: &Mechanism,
+) -> Result<(Vec<Vec<f64>>, usize), PlanError> {
+    let is_possible = |commands: &&Vec<f64>| {
+        let posture = mechanism.posture(PostureRequest::commands(commands));
+        posture.is_ok_and(|p| p.within_limits().is_ok() && task.is_possible(&p))
+    };
+    let found: Vec<Vec<f64>> = task.given.iter().filter(is_possible).cloned().collect();
+    let tried = task.given.len();
+    match found.len() {
+        0 => Err(PlanError::NoPosture { tried }),
+        count => Ok((found, tried - count)),
+    }
 }
 
 /// Commands within the limits of the actuators, and the number of those that were passed over.

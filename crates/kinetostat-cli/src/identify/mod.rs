@@ -39,7 +39,7 @@ pub(crate) struct IdentifyArgs {
     /// Preset or model file
     #[arg(value_name = "MODEL")]
     pub(crate) model: String,
-    /// Table of the measurements (CSV, see below)
+    /// Table of the measurements (CSV, XLSX or Parquet, see below)
     #[arg(long, value_name = "FILE")]
     pub(crate) measured: PathBuf,
     /// Numbers to identify: paths as in `chain.arm.A2.stiffness_n_m_per_rad`, * for any text;
@@ -311,7 +311,7 @@ fn rows(
 }
 
 /// All faults of a table in one message.
-fn of_table(name: &str, faults: &[TableFault]) -> Failure {
+pub(crate) fn of_table(name: &str, faults: &[TableFault]) -> Failure {
     let line = |fault: &TableFault| {
         let column = fault
             .column

@@ -12,7 +12,7 @@ use clap::{Args, ValueEnum};
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_identification::{
     Axes, DEVIATION, Observation, Plan, PlanError, PlanTask, PlannedMeasurement, Purpose, Reading,
-    Room, TestLoad, Theory, Unknowns, plan,
+    Room, TestLoad, Theory, Unknowns, plan, read_postures,
 };
 use kinetostat_model::Model;
 use kinetostat_report::{Plot, PlotLine};
@@ -20,6 +20,7 @@ use nalgebra::Vector3;
 
 use crate::files::answer_files::{AnswerFiles, ClaimedFiles, Shown};
 use crate::files::input_files::InputFiles;
+use crate::identify::of_table;
 use crate::machine::units::unit;
 use crate::options::{number, vector, whole};
 use crate::place::joints::{self, JointValue, Named};
@@ -106,7 +107,10 @@ pub(crate) struct PlanMeasurementArgs {
         help_heading = "What it is for"
     )]
     pub(crate) aim: Option<Aim>,
-    /// Number of postures to choose from [default: 300]
+    /// Postures to choose from, as a table with the axes (A1_deg, ...; CSV, XLSX or Parquet); without it they are drawn
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["candidates", "seed"])]
+    pub(crate) postures: Option<PathBuf>,
+    /// Number of postures that are drawn to choose from [default: 300]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) candidates: Option<usize>,
     /// Other seeds draw other postures to choose from [default: 0]
@@ -155,6 +159,7 @@ pub(crate) fn run(args: &PlanMeasurementArgs) -> Answer<()> {
     model.require_stiffness()?;
     let mut inputs: Vec<PathBuf> = path.into_iter().collect();
     inputs.extend(job_of_work(args)?.map(Path::to_owned));
+    inputs.extend(args.postures.clone());
     let mut claimed = ClaimedFiles::claim(&args.outputs, &inputs)?;
     let sheet = args
         .sheet
@@ -219,6 +224,7 @@ fn task<'a>(
         markers: markers.clone(),
         deviation,
         count,
+        given: given(args, model)?,
         candidates,
         seed: seed(args)?,
         room: Room {
@@ -236,6 +242,16 @@ fn task<'a>(
         purpose: purpose(args, model)?,
         theory: Theory::Loaded,
     })
+}
+
+/// The postures of a table.
+fn given(args: &PlanMeasurementArgs, model: &Model) -> Answer<Vec<Vec<f64>>> {
+    let Some(path) = &args.postures else {
+        return Ok(Vec::new());
+    };
+    let text = InputFiles::default().table("table of postures", path)?;
+    let found = read_postures(&text, &Axes::of(model));
+    found.map_err(|faults| of_table(&path.display().to_string(), &faults))
 }
 
 fn seed(args: &PlanMeasurementArgs) -> Answer<u32> {

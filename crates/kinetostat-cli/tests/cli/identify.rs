@@ -216,6 +216,11 @@ fn the_work_of_a_job_decides_postures_and_is_judged() {
     assert!(for_all["left_error_mm"].is_null());
     assert_ne!(for_job["measurements"], for_all["measurements"]);
 
+    // Postures that were taught, whatever else their table has.
+    let taught =
+        json("plan-measurement heavy_6r --pull-n 800 --count 3 --postures pulls.csv --json");
+    assert_eq!(taught["candidates"], 5);
+
     let found = json(
         "identify heavy_6r --measured pulls.csv --prior-percent 10 --work job.toml --report r.html --pdf r.pdf --json",
     );

@@ -17,7 +17,7 @@ use crate::experiment::{Branch, Observation, Reading, ReadingOf, TestLoad};
 
 pub use columns::COLUMNS;
 pub use frame::{InstrumentFrame, NoFrame, into_base};
-pub use read::read_table;
+pub use read::{read_postures, read_table};
 pub use row::{DEVIATION, MOST_FAULTS, MeasuredRow, Read, TURN_DEVIATION, TableFault};
 
 /// The largest load of the loop that a row belongs to: in its posture, at its point and along its force, or, behind the loop, along the

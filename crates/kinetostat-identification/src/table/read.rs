@@ -13,6 +13,29 @@ use crate::table::row::{MOST_FAULTS, MeasuredRow, Read, TableFault};
 /// All faults, in the order of the file: columns that are unknown, missing, twice or without a unit; cells that are no numbers; rows of
 /// another length; axes beyond their limits. Rows without a reading are no fault: a plan is filled in row by row.
 pub fn read_table(text: &str, axes: &Axes<'_>) -> Result<Vec<MeasuredRow>, Vec<TableFault>> {
+    rows_of(text, axes, measured_columns)
+}
+
+/// Commands (m or rad) of the postures of a table, of which only the axes need columns; each posture once.
+///
+/// # Errors
+/// As [`read_table`].
+pub fn read_postures(text: &str, axes: &Axes<'_>) -> Result<Vec<Vec<f64>>, Vec<TableFault>> {
+    let mut postures: Vec<Vec<f64>> = Vec::new();
+    for row in rows_of(text, axes, |_, _| ())? {
+        if !postures.contains(&row.commands) {
+            postures.push(row.commands);
+        }
+    }
+    Ok(postures)
+}
+
+/// Rows of a table; `needed` adds what its header misses beside the axes.
+fn rows_of(
+    text: &str,
+    axes: &Axes<'_>,
+    needed: fn(&[Option<Column>], &mut Missing<'_>),
+) -> Result<Vec<MeasuredRow>, Vec<TableFault>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let is_row = |l: &&str| !l.trim().is_empty() && !l.trim_start().starts_with('#');
     let head = text.lines().find(is_row).unwrap_or_default();
@@ -45,6 +68,13 @@ pub fn read_table(text: &str, axes: &Axes<'_>) -> Result<Vec<MeasuredRow>, Vec<T
     let head_line = head.position().map_or(1, |p| p.line() as usize);
     let mut faults = Vec::new();
     let columns = columns(&heads, head_line, axes, &mut faults);
+    needed(
+        &columns,
+        &mut Missing {
+            line: head_line,
+            faults: &mut faults,
+        },
+    );
     let mut rows = Vec::new();
     for record in records {
         if faults.len() >= MOST_FAULTS {
@@ -100,7 +130,24 @@ fn line_of(error: &csv::Error) -> usize {
 /// Component of a vector that a column holds.
 type ComponentOf = fn(&Column) -> Option<usize>;
 
-/// Meaning of the columns, none where there is a fault, and what the header misses.
+/// What a header misses.
+struct Missing<'f> {
+    line: usize,
+    faults: &'f mut Vec<TableFault>,
+}
+
+impl Missing<'_> {
+    fn add(&mut self, message: String) {
+        self.faults.push(TableFault {
+            line: self.line,
+            column: None,
+            found: None,
+            message,
+        });
+    }
+}
+
+/// Meaning of the columns, none where there is a fault; axes without a column are faults.
 fn columns(
     heads: &[&str],
     line: usize,
@@ -142,27 +189,25 @@ fn columns(
         columns.push(column);
     }
     let has = |wanted: &dyn Fn(&Column) -> bool| columns.iter().flatten().any(wanted);
-    let mut missing = |message: String| {
-        faults.push(TableFault {
-            line,
-            column: None,
-            found: None,
-            message,
-        })
-    };
     let without: Vec<&str> = (axes.names().iter().enumerate())
         .filter(|(i, _)| !has(&|c| matches!(c, Column::Axis(j, _) if j == i)))
         .map(|(_, (name, _))| name.as_str())
         .collect();
     if !without.is_empty() {
-        missing(format!(
+        Missing { line, faults }.add(format!(
             "columns are missing for the axes {}, with their units (such as {}_deg)",
             without.join(", "),
             without[0]
         ));
     }
+    columns
+}
+
+/// Columns of a load and of what was read.
+fn measured_columns(columns: &[Option<Column>], missing: &mut Missing<'_>) {
+    let has = |wanted: &dyn Fn(&Column) -> bool| columns.iter().flatten().any(wanted);
     if !has(&|c| matches!(c, Column::Force(..) | Column::Moment(..) | Column::Mass)) {
-        missing(
+        missing.add(
             "no column states the load: fx_n, fy_n, fz_n, mx_n_m, my_n_m, mz_n_m or mass_kg"
                 .to_owned(),
         );
@@ -202,18 +247,17 @@ fn columns(
         let count = (0..3).filter(|k| has(&|c| of(c) == Some(*k))).count();
         reads |= count == 3;
         if count == 1 || count == 2 {
-            missing(format!(
+            missing.add(format!(
                 "of {names} only {count} of 3 columns are there; give all three"
             ));
         }
     }
     if !reads {
-        missing("no column states what was read: dx_mm, dy_mm, dz_mm, or x_mm, y_mm, z_mm, or rx_mrad, ry_mrad, rz_mrad, or gauge_mm with gauge_x, gauge_y, gauge_z".to_owned());
+        missing.add("no column states what was read: dx_mm, dy_mm, dz_mm, or x_mm, y_mm, z_mm, or rx_mrad, ry_mrad, rz_mrad, or gauge_mm with gauge_x, gauge_y, gauge_z".to_owned());
     }
     if has(&|c| matches!(c, Column::Gauge(_))) != has(&|c| matches!(c, Column::GaugeDirection(_))) {
-        missing("a dial gauge needs its reading (gauge_mm) and its direction (gauge_x, gauge_y, gauge_z)".to_owned());
+        missing.add("a dial gauge needs its reading (gauge_mm) and its direction (gauge_x, gauge_y, gauge_z)".to_owned());
     }
-    columns
 }
 
 /// A column without its unit.

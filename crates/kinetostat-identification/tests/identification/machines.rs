@@ -344,6 +344,7 @@ fn a_plan_says_what_its_loads_do_not_show() -> Outcome {
         markers: vec![Vector3::zeros()],
         deviation: 30e-6,
         count: 10,
+        given: Vec::new(),
         candidates: 40,
         seed: 0,
         room: Room::default(),

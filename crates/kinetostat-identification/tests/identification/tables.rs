@@ -2,7 +2,8 @@
 
 use kinetostat::number::larger;
 use kinetostat_identification::{
-    Axes, NoFrame, ReadingOf, TableFault, into_base, observations, places, read_table,
+    Axes, NoFrame, ReadingOf, TableFault, into_base, observations, places, read_postures,
+    read_table,
 };
 use nalgebra::{Vector3, vector};
 
@@ -260,4 +261,17 @@ fn rows_of_a_plan_are_filled_in_one_by_one() {
     );
     let empty = faults(&format!("{head}1,0,0,0,0,0,0,-100,,,\n"));
     assert_eq!(empty.len(), 1, "{empty:?}");
+}
+
+#[test]
+fn postures_need_their_axes_only() -> Outcome {
+    let model = h6(false);
+    let axes = Axes::of(&model);
+    let text = format!("{AXES}\n0,10,0,0,20,0\n5,0,0,0,0,0\n0,10,0,0,20,0\n");
+    let found = read_postures(&text, &axes).map_err(|f| anyhow::anyhow!("{f:?}"))?;
+    assert_eq!(found.len(), 2, "each posture once");
+    assert!((found[0][1] - 10_f64.to_radians()).abs() < 1e-15);
+    let without = text.replace(",A6_deg", "").replace(",20,0", ",20");
+    assert!(read_postures(&without, &axes).is_err());
+    Ok(())
 }

@@ -85,6 +85,7 @@ fn joints_links_and_a_compensator_are_found_and_compensated() -> Outcome {
         markers: vec![marker],
         deviation: 30e-6,
         count: 30,
+        given: Vec::new(),
         candidates: 100,
         seed: 0,
         room: Room {
