@@ -48,7 +48,7 @@ def identify(
     model : path | Machine
         Preset or model file
     measured : path
-        Table of the measurements (CSV, see below)
+        Table of the measurements (CSV, XLSX or Parquet, see below)
     numbers : str | float | Sequence[str | float]
         Numbers to identify: paths as in `chain.arm.A2.stiffness_n_m_per_rad`, * for any text;
         `joints` for the stiffness of every drive; `geometry` for errors of the links, from places

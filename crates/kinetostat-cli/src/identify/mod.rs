@@ -152,6 +152,11 @@ pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
     if args.pdf.is_some() {
         refuse_without_pdf()?;
     }
+    if let Some(count) = args.resamples.filter(|n| !(FEWEST..=MOST).contains(n)) {
+        return Err(ErrorCode::Value.failure(format!(
+            "--resamples {count}: {FEWEST} to {MOST} tell an interval"
+        )));
+    }
     let mut claimed = ClaimedFiles::claim(&args.outputs, &inputs)?;
     let mut claim = |what, path: &Option<PathBuf>| {
         path.as_ref()
@@ -162,37 +167,11 @@ pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
     let uncertain = claim("uncertainties", &args.uncertain_out)?;
     let report_file = claim("report", &args.report)?;
     let pdf_file = claim("report", &args.pdf)?;
-    let patterns: Vec<&str> = args.numbers.iter().map(String::as_str).collect();
-    let unknowns = Unknowns::matching(&model, &patterns)?;
-    let is_geometry = (args.numbers.iter()).any(|n| n == "geometry" || n.starts_with("deviation."));
-    if is_geometry && args.small_loads {
-        return Err(ErrorCode::Conflict.failure(
-            "--small-loads knows displacements only, and geometry is identified from places: leave it out",
-        ));
-    }
-    let unknowns = match args.friction {
-        true => unknowns.with_friction(&model),
-        false => unknowns,
-    };
-    let mut rows = rows(args, &files, &model, &name)?;
-    let instrument = match args.find_frame {
-        true => {
-            let found = into_base(&mut rows, &model.mechanism);
-            let found = found.map_err(|e| ErrorCode::FileForm.failure(format!("{name}: {e}")))?;
-            Some(InstrumentPlace::from(found))
-        }
-        false => None,
-    };
-    let gravity = model.mechanism.gravity();
-    let observations = match is_geometry {
-        true => places(&rows, &gravity),
-        false => observations(&rows, &gravity),
-    };
-    let observations = observations.map_err(|faults| of_table(&name, &faults))?;
-    let unknowns = match is_geometry {
-        true => unknowns.with_markers(&observations),
-        false => unknowns,
-    };
+    let Question {
+        unknowns,
+        observations,
+        instrument,
+    } = question(args, &files, &model, &name)?;
     let options = FitOptions {
         theory: if args.small_loads {
             Theory::SmallLoads
@@ -204,12 +183,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
     };
     let found = identification(&unknowns, &observations, &options)?;
     let found = match args.resamples {
-        Some(count @ FEWEST..=MOST) => found.with_resampled_intervals(&unknowns, count),
-        Some(count) => {
-            return Err(ErrorCode::Value.failure(format!(
-                "--resamples {count}: {FEWEST} to {MOST} tell an interval"
-            )));
-        }
+        Some(count) => found.with_resampled_intervals(&unknowns, count),
         None => found,
     };
     let work = match &args.work {
@@ -258,6 +232,58 @@ pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
         failure: None,
     };
     claimed.finish(&shown, &answer)
+}
+
+/// What is to be identified, and what was read.
+struct Question {
+    unknowns: Unknowns,
+    observations: Vec<Observation>,
+    /// Frame of the instrument in the base, if it was found.
+    instrument: Option<InstrumentPlace>,
+}
+
+fn question(
+    args: &IdentifyArgs,
+    files: &InputFiles,
+    model: &Model,
+    name: &str,
+) -> Answer<Question> {
+    let patterns: Vec<&str> = args.numbers.iter().map(String::as_str).collect();
+    let unknowns = Unknowns::matching(model, &patterns)?;
+    let is_geometry = (args.numbers.iter()).any(|n| n == "geometry" || n.starts_with("deviation."));
+    if is_geometry && args.small_loads {
+        return Err(ErrorCode::Conflict.failure(
+            "--small-loads knows displacements only, and geometry is identified from places: leave it out",
+        ));
+    }
+    let unknowns = match args.friction {
+        true => unknowns.with_friction(model),
+        false => unknowns,
+    };
+    let mut rows = rows(args, files, model, name)?;
+    let instrument = match args.find_frame {
+        true => {
+            let found = into_base(&mut rows, &model.mechanism);
+            let found = found.map_err(|e| ErrorCode::FileForm.failure(format!("{name}: {e}")))?;
+            Some(InstrumentPlace::from(found))
+        }
+        false => None,
+    };
+    let gravity = model.mechanism.gravity();
+    let observations = match is_geometry {
+        true => places(&rows, &gravity),
+        false => observations(&rows, &gravity),
+    };
+    let observations = observations.map_err(|faults| of_table(name, &faults))?;
+    let unknowns = match is_geometry {
+        true => unknowns.with_markers(&observations),
+        false => unknowns,
+    };
+    Ok(Question {
+        unknowns,
+        observations,
+        instrument,
+    })
 }
 
 /// What is left along the program of a job.
