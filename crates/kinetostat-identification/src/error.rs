@@ -67,6 +67,16 @@ pub enum IdentificationError {
         /// Name of the posture.
         posture: String,
     },
+    /// A marker far from where it should be.
+    #[error(
+        "posture '{posture}': a place lies {distance:.2} m from where the model has it, which no errors of links explain; look at the unit of the places, at the frame in which they are (that of the base is needed), and at the markers"
+    )]
+    FarPlace {
+        /// Name of the posture.
+        posture: String,
+        /// Along one axis, m.
+        distance: f64,
+    },
     /// A body of a limb without an element at which the file could state its error.
     #[error(
         "limb '{limb}': no rigid element or link in front of '{joint}' has a name, so that the model cannot state an error of the geometry there; give one a name, or add one with an offset of zero"

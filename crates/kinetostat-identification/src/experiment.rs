@@ -75,7 +75,8 @@ impl TestLoad {
 
 impl Reading {
     /// True for a place, false for what a load changed.
-    pub(crate) fn is_place(&self) -> bool {
+    #[must_use]
+    pub fn is_place(&self) -> bool {
         matches!(self.of, ReadingOf::Place(_))
     }
 

@@ -106,7 +106,7 @@ impl fmt::Display for Finding {
                 directions,
             } => write!(
                 f,
-                "the places decide {directions} combinations of the {numbers} numbers of the geometry; all others keep the values of the model, so that a number by itself says nothing, but all together say where the tool is"
+                "the places decide {directions} combinations of the {numbers} numbers of the geometry; all others keep the values of the model, so that a number by itself says nothing, but all together say where the markers are. The tool stays on the flange as the model has it: markers do not tell where its tip is"
             ),
             Self::Weak {
                 number,

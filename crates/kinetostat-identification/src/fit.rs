@@ -96,6 +96,9 @@ pub fn identify(
     let mut postures = rows_at(&values)?;
     let residuals = postures.iter().map(|p| &p.values - &p.rows * &values);
     let before: Vec<DVector<f64>> = residuals.collect();
+    if gauge.is_some() {
+        refuse_far_places(&groups, observations, &before)?;
+    }
     let mut change = f64::NAN;
     for steps in 1..=MOST_STEPS {
         let with_prior: Vec<PostureRows> = postures.iter().chain(prior.as_ref()).cloned().collect();
@@ -133,6 +136,29 @@ pub fn identify(
         steps: MOST_STEPS,
         change,
     })
+}
+
+/// Distance of a place from where the model has it beyond which it is one of another machine, unit or frame, m.
+const FAR: f64 = 0.1;
+
+fn refuse_far_places(
+    groups: &[(&str, Vec<usize>)],
+    observations: &[Observation],
+    before: &[DVector<f64>],
+) -> Result<(), IdentificationError> {
+    for ((posture, members), before) in groups.iter().zip(before) {
+        let readings = members.iter().flat_map(|m| &observations[*m].readings);
+        for (reading, off) in readings.zip(before.iter()) {
+            let distance = (off * reading.deviation).abs();
+            if reading.is_place() && distance > FAR {
+                return Err(IdentificationError::FarPlace {
+                    posture: (*posture).to_owned(),
+                    distance,
+                });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Values of the unknowns, and the rows there.

@@ -2,7 +2,8 @@
 //!
 //! An error is a small motion `[v; w]` behind a rigid element or link, in the frame reached there; a model file has it as a
 //! `[[deviation]]`, so that the identified geometry is a model like any other. There is one error before the first joint, one between two
-//! joints, and one behind the last joint: `6 (n + 1)` numbers for an arm of `n` joints. Readings of places decide only
+//! joints, and one behind the last joint: `6 (n + 1)` numbers for an arm of `n` joints. The last one is that of the markers as well, so that
+//! it is asked for by its path only. Readings of places decide only
 //! `6 (n + 1) - 2 R - 4 P` of them for R revolute and P prismatic joints (Everett and Hsu 1988; theory: identification, section 3), see
 //! [`crate::gauge`].
 
@@ -26,7 +27,7 @@ pub(crate) fn is_geometry(name: &str) -> bool {
     name.starts_with(DEVIATION) || name.starts_with(MARKER)
 }
 
-/// Paths of the errors of all limbs; `all` are the numbers that the file has.
+/// Paths of the errors of all limbs in front of their last joints; `all` are the numbers that the file has.
 pub(crate) fn error_paths(
     model: &Model,
     all: &[Parameter],
@@ -36,7 +37,10 @@ pub(crate) fn error_paths(
         let Some(chain) = model.document.chain.get(&limb.chain) else {
             continue;
         };
-        for at in places(&limb.name, &chain.elements)? {
+        let mut places = places(&limb.name, &chain.elements)?;
+        // Behind the last joint an error moves the tool as it moves the markers: where both are free, none is known.
+        places.pop();
+        for at in places {
             let place = format!("{DEVIATION}{}.{at}.", limb.name);
             let known = all.iter().filter(|p| p.path.starts_with(&place));
             let known: Vec<String> = known.map(|p| p.path.clone()).collect();

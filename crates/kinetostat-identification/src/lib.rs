@@ -53,6 +53,7 @@ pub use gauge::Gauge;
 pub use identifiability::{Combination, Identifiability, Knowledge, WEAK};
 pub use identified::{DirectionResiduals, IdentifiedNumber, PostureResiduals};
 pub use least_squares::{HUBER, LinearFit, PostureRows, Start, fit as least_squares};
+pub use markers::MARKER_ERROR;
 pub use plan::{Plan, PlanError, PlanTask, PlannedMeasurement, Purpose, Room, plan};
 pub use prediction::{Prediction, Theory, predict};
 pub use result::{Identification, identification};

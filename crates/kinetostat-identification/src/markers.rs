@@ -7,14 +7,16 @@ use crate::experiment::Observation;
 use crate::geometry::{AXES, MARKER};
 use crate::unknown::{Form, Unknown, Unknowns};
 
-/// Size that an error of a marker's place is compared with, m.
-const MARKER_ERROR: f64 = 1e-3;
+/// Size that an error of a marker's place is compared with, m: far above those of links, so that what could be either is the marker's, and
+/// the tool stays where the model has it.
+pub const MARKER_ERROR: f64 = 0.1;
 
 impl Unknowns {
     /// The same, and the places in the tool's frame of all markers whose places were read. The place that a reading states is the
-    /// nominal one, from which the fit starts.
+    /// nominal one, from which the fit starts; `size` (m) is what its error is compared with where readings do not tell it from one of a link, usually
+    /// [`MARKER_ERROR`].
     #[must_use]
-    pub fn with_markers(mut self, observations: &[Observation]) -> Self {
+    pub fn with_markers(mut self, observations: &[Observation], size: f64) -> Self {
         let readings = observations.iter().flat_map(|o| &o.readings);
         for reading in readings.filter(|r| r.is_place()) {
             if self.markers.contains(&reading.marker) {
@@ -33,7 +35,7 @@ impl Unknowns {
                     },
                     form: Form::Marker(marker, k),
                     nominal: *at,
-                    size: MARKER_ERROR,
+                    size,
                 });
             }
         }

@@ -99,6 +99,19 @@ pub fn uncertainty_file(found: &Identification, source: &str) -> String {
             number.number, number.unit
         );
     }
+    let missing = found
+        .numbers
+        .iter()
+        .filter(|n| n.is_of_model && n.deviation.is_none());
+    for number in missing.filter(|n| !n.is_geometry()) {
+        out += &format!(
+            "\n# {}: no reading tells how well it is known, so it does not vary here.\n",
+            number.number
+        );
+    }
+    if found.numbers.iter().any(IdentifiedNumber::is_geometry) {
+        out += "\n# Errors of the geometry are known in combinations only, so they do not vary here.\n";
+    }
     for (k, (i, one, (of_one, _))) in known.iter().enumerate() {
         for (j, other, (of_other, _)) in &known[..k] {
             let coefficient = found.covariance[*i][*j] / (of_one * of_other);

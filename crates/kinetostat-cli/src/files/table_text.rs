@@ -77,6 +77,8 @@ fn text_of_sheet(bytes: Vec<u8>) -> Result<String, String> {
 fn words(cell: &DataRef<'_>) -> String {
     match Data::from(cell.clone()) {
         Data::Float(number) => number.to_string(),
+        // Its number is one of days.
+        Data::DateTime(_) | Data::DateTimeIso(_) | Data::DurationIso(_) => "a date".to_owned(),
         other => other.to_string(),
     }
 }

@@ -12,9 +12,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use kinetostat_diagnostic::{Diagnostic, ErrorCode, Location};
 use kinetostat_identification::{
-    Axes, DEVIATION, FitOptions, Identification, IdentificationError, MeasuredRow, Observation,
-    TableFault, Theory, Unknowns, identification, identified_model, into_base, observations,
-    places, read_table, uncertainty_file,
+    Axes, DEVIATION, FitOptions, Identification, IdentificationError, MARKER_ERROR, MeasuredRow,
+    Observation, Reading, TableFault, Theory, Unknowns, identification, identified_model,
+    into_base, observations, places, read_table, uncertainty_file,
 };
 use kinetostat_model::Model;
 
@@ -62,7 +62,7 @@ pub(crate) struct IdentifyArgs {
     #[arg(long)]
     pub(crate) robust: bool,
     /// Intervals from fits to N drawings of as many postures (bootstrap), in place of Student's; 1000 are usual
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole, conflicts_with = "prior_percent")]
     pub(crate) resamples: Option<usize>,
     /// Displacements in proportion to the load, without weights: as textbooks do
     #[arg(long)]
@@ -122,6 +122,9 @@ Exit codes:
 /// Resampled fits between whose percentiles an interval lies.
 const FEWEST: usize = 100;
 const MOST: usize = 100_000;
+
+/// Postures from which others are drawn, at least.
+const FEWEST_POSTURES: usize = 8;
 
 /// Results that the command gives as JSON.
 pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<IdentifyAnswer>("identified numbers")];
@@ -183,6 +186,12 @@ pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
     };
     let found = identification(&unknowns, &observations, &options)?;
     let found = match args.resamples {
+        Some(_) if found.postures < FEWEST_POSTURES => {
+            return Err(ErrorCode::NoAnswer.failure(format!(
+                "{name} has {} postures: --resamples needs at least {FEWEST_POSTURES} to draw from",
+                found.postures
+            )));
+        }
         Some(count) => found.with_resampled_intervals(&unknowns, count),
         None => found,
     };
@@ -251,9 +260,9 @@ fn question(
     let patterns: Vec<&str> = args.numbers.iter().map(String::as_str).collect();
     let unknowns = Unknowns::matching(model, &patterns)?;
     let is_geometry = (args.numbers.iter()).any(|n| n == "geometry" || n.starts_with("deviation."));
-    if is_geometry && args.small_loads {
+    if is_geometry && (args.small_loads || args.find_frame) {
         return Err(ErrorCode::Conflict.failure(
-            "--small-loads knows displacements only, and geometry is identified from places: leave it out",
+            "geometry is identified from places in the frame of the base: leave --small-loads out, which knows displacements only, and --find-frame, which takes the geometry of the model for right",
         ));
     }
     let unknowns = match args.friction {
@@ -276,7 +285,16 @@ fn question(
     };
     let observations = observations.map_err(|faults| of_table(name, &faults))?;
     let unknowns = match is_geometry {
-        true => unknowns.with_markers(&observations),
+        true if !observations
+            .iter()
+            .flat_map(|o| &o.readings)
+            .any(Reading::is_place) =>
+        {
+            return Err(ErrorCode::Missing.failure(format!(
+                "{name}: geometry is identified from places; the table has no x_mm, y_mm, z_mm"
+            )));
+        }
+        true => unknowns.with_markers(&observations, MARKER_ERROR),
         false => unknowns,
     };
     Ok(Question {

@@ -1,7 +1,9 @@
 //! The report of an identification: what was found, how well it is known, and how well it fits, with pictures.
 
 use kinetostat::{Mechanism, PostureRequest};
-use kinetostat_identification::{Identification, IdentifiedNumber, Observation, PostureResiduals};
+use kinetostat_identification::{
+    ErrorAtWork, Identification, IdentifiedNumber, Observation, PostureResiduals,
+};
 use kinetostat_report::{Bar, Bars, Cell, Document, Placed, Plot, PlotLine, Section};
 
 use crate::files::origin;
@@ -170,8 +172,9 @@ fn postures(mechanism: &Mechanism, observations: &[Observation]) -> Plot {
 
 /// Errors along the program of a job.
 fn along_work(a: &IdentifyAnswer) -> Plot {
-    let line = |name: &str, colour, of: &dyn Fn(&crate::identify::answer::WorkError) -> f64| {
-        let points = a.work.iter().map(|w| (w.path_mm, of(w)));
+    let line = |name: &str, colour, of: &dyn Fn(&ErrorAtWork) -> Option<f64>| {
+        let points = a.work.iter();
+        let points = points.map(|w| (w.path_mm, of(&w.error).unwrap_or(f64::NAN)));
         PlotLine::solid(name, colour, points.collect())
     };
     Plot {
@@ -179,14 +182,14 @@ fn along_work(a: &IdentifyAnswer) -> Plot {
         x_label: "length of the path, mm".to_owned(),
         y_label: "mm".to_owned(),
         lines: vec![
-            line("without compensation", 2, &|w| w.error.displacement_mm),
-            line("compensated with the model as it was", 1, &|w| {
-                w.error.before_mm
+            line("without compensation", 2, &|e| Some(e.displacement_mm)),
+            line("compensated with the model as it was", 1, &|e| {
+                Some(e.before_mm)
             }),
             line(
                 "compensated with the identified one: less than this (95 %)",
                 0,
-                &|w| w.error.after_mm,
+                &|e| e.after_mm,
             ),
         ],
         marks: Vec::new(),

@@ -105,11 +105,21 @@ pub(crate) fn of_work(a: &IdentifyAnswer) -> String {
         ),
         None => String::new(),
     };
+    let open = a.work.iter().filter(|w| w.error.after_mm.is_none()).count();
+    let after = match open {
+        0 => format!(
+            "less than {} mm with a confidence of 95 %.{misfit}",
+            largest(&|e| e.after_mm.unwrap_or(0.0))
+        ),
+        open => format!(
+            "nobody knows how much: at {open} of {} places the error depends on numbers that no reading shows.",
+            a.work.len()
+        ),
+    };
     format!(
-        "Along the program the load moves the tool by up to {} mm; compensated with the model as it was, up to {} mm are left, with the identified one less than {} mm with a confidence of 95 %.{misfit}",
+        "Along the program the tool is up to {} mm off; compensated with the model as it was, up to {} mm are left, with the identified one {after}",
         largest(&|e| e.displacement_mm),
         largest(&|e| e.before_mm),
-        largest(&|e| e.after_mm),
     )
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use kinetostat::{Mechanism, PostureRequest};
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_identification::{Observation, Reading, TestLoad};
-use kinetostat_machining::{ProgramPlace, Run, Task, analyse};
+use kinetostat_machining::{ProgramPlace, Run, Task, WeightCorrection, analyse};
 use kinetostat_model::Model;
 use nalgebra::Vector3;
 
@@ -29,7 +29,7 @@ const PLACES: usize = 60;
 pub(crate) struct WorkPlace {
     /// Length of the path up to here, mm.
     pub(crate) path_mm: f64,
-    /// Commands and load; the readings are the displacement of the tool's tip.
+    /// Commands and load; the readings are places of the tool's tip, or its displacement by the load where weights do not count.
     pub(crate) observation: Observation,
 }
 
@@ -103,7 +103,13 @@ fn work_at(
                 at,
             },
             branch: None,
-            readings: Reading::displacement(at, &Vector3::zeros(), 1.0).into(),
+            // Where all of the machine's own error counts, the tool belongs where it is programmed.
+            readings: match machine.weight {
+                WeightCorrection::All => {
+                    Reading::place(at, &place.programmed.translation.vector, 1.0).into()
+                }
+                _ => Reading::displacement(at, &Vector3::zeros(), 1.0).into(),
+            },
         },
     })
 }

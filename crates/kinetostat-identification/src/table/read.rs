@@ -301,6 +301,14 @@ impl Row<'_> {
             let Some(column) = column else { continue };
             if let Column::Posture = column {
                 posture = Some((*cell).to_owned()).filter(|name| !name.is_empty());
+                if posture.is_none() {
+                    faults.push(TableFault {
+                        line: self.line,
+                        column: Some((*head).to_owned()),
+                        found: None,
+                        message: "the posture has no name: write it in every row (of merged cells of a spreadsheet only the first has it)".to_owned(),
+                    });
+                }
             }
             if let Column::Branch = column {
                 unloading = match *cell {
@@ -370,6 +378,16 @@ impl Row<'_> {
                 message,
             });
         };
+        // What no load and no machine does comes from another unit, or from a cell that is something else.
+        let mut within = |parts: &[Option<f64>], most: f64, what: &str| {
+            if parts.iter().flatten().any(|x| x.abs() > most) {
+                fault(format!("{what}: look at its unit"));
+            }
+        };
+        within(&displacement, 1.0, "a displacement of more than 1 m");
+        within(&position, 1e3, "a place more than 1 km away");
+        within(&turn, 1.0, "a turn of more than 1 rad");
+        within(&[gauge], 1.0, "a gauge that reads more than 1 m");
         let mut vector = |parts: [Option<f64>; 3], names: &str| match parts {
             [Some(x), Some(y), Some(z)] => Some(Vector3::new(x, y, z)),
             [None, None, None] => None,

@@ -2,9 +2,10 @@
 
 use anyhow::{Context, Result};
 use kinetostat::spatial::hat;
+use kinetostat::{PostureRequest, Wrench};
 use kinetostat_identification::{
-    Finding, FitOptions, Gauge, IdentificationError as Error, Knowledge, Observation, Reading,
-    TestLoad, Theory, Unknowns, identification, identified_model, identify, predict,
+    Finding, FitOptions, Gauge, IdentificationError as Error, Knowledge, MARKER_ERROR, Observation,
+    Reading, TestLoad, Theory, Unknowns, identification, identified_model, identify, predict,
 };
 use kinetostat_model::Model;
 use kinetostat_testing::{Worst, largest_size};
@@ -20,13 +21,22 @@ const OPTIONS: FitOptions = FitOptions {
 /// Standard deviation of a place, m.
 const DEVIATION: f64 = 30e-6;
 
+/// The error behind the last joint.
+const FLANGE: &str = "deviation.arm.to end 5";
+
 /// Compliances of joints 2 to 6, errors of seven links and places of three markers.
 fn unknowns(model: &Model, observations: &[Observation]) -> Result<Unknowns> {
     let joint = |i| format!("chain.arm.A{i}.stiffness_n_m_per_rad");
     let joints: Vec<String> = (2..=6).map(joint).collect();
     let mut patterns: Vec<&str> = joints.iter().map(String::as_str).collect();
+    // The reference has an error behind the last joint, too, and compares all lengths with a millimetre.
+    let flange = ["translation_mm", "rotation_vector_deg"]
+        .iter()
+        .flat_map(|key| ["x", "y", "z"].map(|axis| format!("{FLANGE}.{key}.{axis}")));
+    let flange: Vec<String> = flange.collect();
     patterns.push("geometry");
-    Ok(Unknowns::matching(model, &patterns)?.with_markers(observations))
+    patterns.extend(flange.iter().map(String::as_str));
+    Ok(Unknowns::matching(model, &patterns)?.with_markers(observations, 1e-3))
 }
 
 /// Places of three markers, in postures under a weight (N) at the tool point.
@@ -180,7 +190,7 @@ fn derivatives_by_the_geometry_are_those_of_differences() -> Result<()> {
     let read = [asked(0, vec![-0.35, -0.34, -0.36], load, read.into())];
     for number in ["foot arm.translation_mm.y", "line.rotation_vector_deg.z"] {
         let path = format!("deviation.leg y.{number}");
-        let unknowns = Unknowns::matching(&model, &[&path])?.with_markers(&read);
+        let unknowns = Unknowns::matching(&model, &[&path])?.with_markers(&read, MARKER_ERROR);
         let off = off_differences(&unknowns, &unknowns.nominal(), &read)?;
         assert!(off < 1e-7, "{path}: {off}");
     }
@@ -240,8 +250,10 @@ fn a_joint_that_a_weight_hardly_turns_does_not_keep_the_fit_from_settling() -> R
     // Only the errors of the geometry let a weight turn joint 1, which is rigid here: noise decides whether it seems to give way.
     let problem = drawn(DEVIATION)?;
     let mut read = problem.read.clone();
-    let all = Unknowns::matching(&h6(true), &["joints", "geometry"])?.with_markers(&read);
-    let truth = problem.truth.clone().insert_row(0, 1e-4 * H6[0]);
+    let all = Unknowns::matching(&h6(true), &["joints", "geometry"])?;
+    let all = all.with_markers(&read, MARKER_ERROR);
+    let truth = problem.truth.clone().remove_rows(5 + 36, 6);
+    let truth = truth.insert_row(0, 1e-4 * H6[0]);
     let exact = predict(&all, &truth, &read, Theory::Loaded)?;
     let mut random = Random::new(1);
     let mut rigid = 0;
@@ -273,5 +285,33 @@ fn what_places_cannot_tell_is_refused() -> Result<()> {
         .replace("name = \"link 3\"", "");
     let refused = Unknowns::matching(&Model::from_toml(&unnamed, "arm.toml")?, &["geometry"]);
     assert!(matches!(refused, Err(Error::NoPlace { joint, .. }) if joint == "A4"));
+    Ok(())
+}
+
+#[test]
+fn misplaced_markers_leave_the_tool_where_it_is() -> Result<()> {
+    // The arm is as it was drawn; only the markers are elsewhere, by some millimetres.
+    let model = h6(true);
+    let mut random = Random::new(3);
+    let mut read = places(&postures(&mut random, 20), 0.0);
+    let unknowns = Unknowns::matching(&model, &["geometry"])?.with_markers(&read, MARKER_ERROR);
+    let mut truth = unknowns.nominal();
+    for at in 36..45 {
+        truth[at] += 4e-3 * random.normal();
+    }
+    let exact = predict(&unknowns, &truth, &read, Theory::Loaded)?;
+    put(&mut read, &exact, &mut |_| 0.0);
+    let found = identification(&unknowns, &read, &OPTIONS)?;
+    let identified = identified_model(&model, &found, "places.csv")?;
+    let commands = angles(&mut random);
+    let tip = |model: &Model| -> Result<Vector3<f64>> {
+        let posture = model
+            .mechanism
+            .posture(PostureRequest::commands(&commands))?;
+        let tool = posture.deflected_by(&Wrench::zero())?.tool;
+        Ok(tool.translation.vector + tool.rotation * vector![0.0, 0.0, 0.2])
+    };
+    let off = (tip(&identified)? - tip(&model)?).norm();
+    assert!(off < 10e-6, "{off:e}");
     Ok(())
 }
