@@ -33,6 +33,7 @@ def plan_measurement(
     work: str | float | Sequence[str | float] | None = None,
     force: Sequence[float] | None = None,
     aim: Literal["average", "determinant", "worst-direction"] | None = None,
+    postures: _Path | None = None,
     candidates: int | None = None,
     seed: int | None = None,
     sheet: _Path | None = None,
@@ -84,8 +85,11 @@ def plan_measurement(
         Force on the tool at these joints, N, base axes; a job has its own
     aim : Literal["average", "determinant", "worst-direction"]
         Without --work: what is made small [default: average]
+    postures : path
+        Postures to choose from, as a table with the axes (A1_deg, ...; CSV, XLSX or Parquet);
+        without it they are drawn
     candidates : int
-        Number of postures to choose from [default: 300]
+        Number of postures that are drawn to choose from [default: 300]
     seed : int
         Other seeds draw other postures to choose from [default: 0]
     sheet : path
@@ -128,6 +132,7 @@ def plan_measurement(
         ("--work", work),
         ("--force", force),
         ("--aim", aim),
+        ("--postures", postures),
         ("--candidates", candidates),
         ("--seed", seed),
         ("--sheet", sheet),
