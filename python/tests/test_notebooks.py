@@ -53,7 +53,7 @@ def test_pages_hold_text_and_code_of_the_notebooks() -> None:
 
 def test_every_notebook_has_its_page_in_the_summary() -> None:
     summary = (ROOT / "book" / "src" / "SUMMARY.md").read_text(encoding="utf-8")
-    assert len(NOTEBOOKS) == 12
+    assert len(NOTEBOOKS) == 13
     for notebook in NOTEBOOKS:
         assert f"(notebooks/{notebook.stem}.md)" in summary
 

@@ -59,7 +59,7 @@ fn text_of_sheet(bytes: Vec<u8>) -> Result<String, String> {
         }
         while at < line {
             row.resize(columns.max(row.len()).max(2), String::new());
-            columns = columns.max(row.len());
+            columns = row.len();
             writer.write_record(&row).map_err(broken)?;
             row.clear();
             at += 1;
