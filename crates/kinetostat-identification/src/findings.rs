@@ -8,7 +8,6 @@ use serde::Serialize;
 
 use crate::experiment::{Observation, Reading, ReadingOf, by_posture};
 use crate::fit::Fit;
-use crate::geometry::is_geometry;
 use crate::identifiability::Knowledge;
 use crate::identified::{IdentifiedNumber, PostureResiduals};
 use crate::least_squares::{LinearFit, SCATTER};
@@ -165,7 +164,7 @@ pub(crate) fn findings(
 ) -> Vec<Finding> {
     let mut out = Vec::new();
     // Numbers of the geometry have one finding together.
-    for number in numbers.iter().filter(|n| !is_geometry(&n.number)) {
+    for number in numbers.iter().filter(|n| !n.is_geometry()) {
         let name = || number.number.clone();
         match (
             number.knowledge,

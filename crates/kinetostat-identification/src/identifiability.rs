@@ -55,15 +55,7 @@ impl Identifiability {
     /// Decides what the rows see of unknowns with these sizes.
     #[must_use]
     pub fn of(postures: &[PostureRows], sizes: &DVector<f64>) -> Self {
-        let ones: Vec<_> = postures
-            .iter()
-            .map(|p| DVector::repeat(p.values.len(), 1.0))
-            .collect();
-        let (triangle, _) = reduced(postures, &ones);
-        let scaled = DMatrix::from_fn(triangle.nrows(), triangle.ncols(), |i, j| {
-            triangle[(i, j)] * sizes[j]
-        });
-        let found = SingularValues::of(&scaled);
+        let found = singular_values(postures, sizes);
         let rank = found.rank(UNSEEN);
         let seen = found.right.columns(0, rank).transpose();
         let singular_values = found.values;
@@ -90,6 +82,19 @@ impl Identifiability {
         })
         .collect()
     }
+}
+
+/// Singular values of all rows, unknowns in units of their sizes.
+pub(crate) fn singular_values(postures: &[PostureRows], sizes: &DVector<f64>) -> SingularValues {
+    let ones: Vec<_> = postures
+        .iter()
+        .map(|p| DVector::repeat(p.values.len(), 1.0))
+        .collect();
+    let (triangle, _) = reduced(postures, &ones);
+    let scaled = DMatrix::from_fn(triangle.nrows(), triangle.ncols(), |i, j| {
+        triangle[(i, j)] * sizes[j]
+    });
+    SingularValues::of(&scaled)
 }
 
 /// Rows reduced to echelon form: each has an unknown of its own with the factor 1, the one with the largest entry that is left.

@@ -176,7 +176,7 @@ fn weighted(
             reference: from,
             sizes,
         };
-        if let Some(found) = with_zeros(&problem, &scaled) {
+        if let Some(found) = with_zeros(&problem, &scaled, &estimate) {
             (estimate, held, at_bound) = (found.estimate, found.inverse, found.zeros);
         } else {
             let solved = problem.solve()?;
@@ -223,14 +223,18 @@ const MOST_EXCHANGES: usize = 30;
 
 /// The optimum where every constraint is that of a single compliance, to the last digit: all that are negative are held at zero and all
 /// that are pulled from there are let go, until none is either (primal-dual active sets; Hintermueller, Ito and Kunisch 2002). None where
-/// that goes round in a circle, and for matrices.
-fn with_zeros(problem: &ConstrainedRows<'_>, scaled: &DMatrix<f64>) -> Option<WithZeros> {
+/// that goes round in a circle, and for matrices. `free` is the optimum without constraints, from which the exchanges start.
+fn with_zeros(
+    problem: &ConstrainedRows<'_>,
+    scaled: &DMatrix<f64>,
+    free: &DVector<f64>,
+) -> Option<WithZeros> {
     let single = problem.constraints.iter().map(|c| match c {
         Constraint::NonNegative(column) => Some(*column),
         Constraint::PositiveSemidefinite(_) => None,
     });
     let single: Vec<usize> = single.collect::<Option<_>>()?;
-    let mut zeros: Vec<usize> = Vec::new();
+    let mut zeros: Vec<usize> = single.iter().filter(|k| free[**k] < 0.0).copied().collect();
     for _ in 0..MOST_EXCHANGES {
         let inverse = without(scaled, &zeros);
         let mut start = problem.reference.clone();

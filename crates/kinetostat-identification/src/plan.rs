@@ -125,7 +125,7 @@ pub fn plan(task: &PlanTask<'_>) -> Result<Plan, PlanError> {
     let observations = task.observations(&postures);
     let sizes = task.unknowns.sizes();
     let nominal = task.unknowns.nominal();
-    // A load under which the machine has no equilibrium is none to choose.
+    // A load under which the machine has no equilibrium cannot be chosen.
     let each = predict_each(task.unknowns, &nominal, &observations, task.theory)?;
     let possible = observations.into_iter().zip(each);
     let possible = possible.filter_map(|(o, p)| Some((o, p.ok()?)));

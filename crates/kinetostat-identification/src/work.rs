@@ -1,6 +1,5 @@
 //! Where the machine works: what its own numbers would have left of the tool's displacement there, and what the identified ones leave.
 
-use kinetostat::linalg::SingularValues;
 use nalgebra::{DMatrix, DVector, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -8,7 +7,8 @@ use serde::Serialize;
 use crate::cone::UNSEEN;
 use crate::error::IdentificationError;
 use crate::experiment::Observation;
-use crate::least_squares::{PostureRows, reduced};
+use crate::identifiability::singular_values;
+use crate::least_squares::PostureRows;
 use crate::prediction::{Theory, predict};
 use crate::result::{Identification, student_95};
 use crate::unknown::Unknowns;
@@ -54,7 +54,8 @@ impl Identification {
             .for_each(|m| *m = Vector3::repeat(f64::NAN));
         let of = |values: &DVector<f64>| predict(&unknowns, values, work, theory);
         let (before, after) = (of(&unknowns.nominal())?, of(&fit.linear.estimate)?);
-        let seen = self.seen(&unknowns.sizes());
+        let sizes = unknowns.sizes();
+        let seen = self.seen(&sizes);
         let each = work.iter().zip(before.iter().zip(&after));
         Ok(each
             .map(|(place, (before, after))| {
@@ -63,7 +64,7 @@ impl Identification {
                     gauge.restrict(&mut rows);
                 }
                 let left = &rows * &self.covariance_in_si * rows.transpose();
-                for (mut column, size) in rows.column_iter_mut().zip(unknowns.sizes().iter()) {
+                for (mut column, size) in rows.column_iter_mut().zip(sizes.iter()) {
                     column *= *size;
                 }
                 let rest = &rows - &rows * &seen * seen.transpose();
@@ -87,12 +88,7 @@ impl Identification {
             .chain(&self.fit.prior)
             .cloned()
             .collect();
-        let ones = all.iter().map(|p| DVector::repeat(p.values.len(), 1.0));
-        let (mut rows, _) = reduced(&all, &ones.collect::<Vec<_>>());
-        for (mut column, size) in rows.column_iter_mut().zip(sizes.iter()) {
-            column *= *size;
-        }
-        let found = SingularValues::of(&rows);
+        let found = singular_values(&all, sizes);
         let rank = found.rank(UNSEEN);
         found.right.columns(0, rank).into_owned()
     }

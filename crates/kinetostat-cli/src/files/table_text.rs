@@ -12,7 +12,7 @@ use crate::ui::failure::{Answer, Failing};
 /// Largest table, bytes: a spreadsheet may be a hundred times as large when it is unpacked.
 const MOST_BYTES: usize = 16 << 20;
 
-/// Most cells of a spreadsheet.
+/// Limit of the cells of a spreadsheet.
 const MOST_CELLS: usize = 2_000_000;
 
 impl InputFiles {
@@ -22,20 +22,21 @@ impl InputFiles {
         let refuse = |why: String| {
             ErrorCode::FileForm.failure(format!("the {what} '{}': {why}", path.display()))
         };
-        let is_sheet = bytes.starts_with(b"PK\x03\x04");
-        if is_sheet && bytes.len() > MOST_BYTES {
-            return Err(refuse("a spreadsheet of at most 16 MB is read".to_owned()));
+        if bytes.starts_with(b"PK\x03\x04") {
+            return text_of_sheet(bytes).map_err(refuse);
         }
-        match () {
-            () if is_sheet => text_of_sheet(bytes).map_err(refuse),
-            () if bytes.starts_with(b"PAR1") => text_of_parquet(&bytes).map_err(refuse),
-            () => text_in(what, path, bytes),
+        if bytes.starts_with(b"PAR1") {
+            return text_of_parquet(&bytes).map_err(refuse);
         }
+        text_in(what, path, bytes)
     }
 }
 
 /// The first sheet, cells separated by semicolons: numbers with a point, texts as they are, with commas in them or not.
 fn text_of_sheet(bytes: Vec<u8>) -> Result<String, String> {
+    if bytes.len() > MOST_BYTES {
+        return Err("a spreadsheet of at most 16 MB is read".to_owned());
+    }
     let unreadable = |error: calamine::XlsxError| {
         format!("it cannot be read as a spreadsheet (XLSX): {error}; save it as CSV")
     };
@@ -77,7 +78,7 @@ fn text_of_sheet(bytes: Vec<u8>) -> Result<String, String> {
 fn words(cell: &DataRef<'_>) -> String {
     match Data::from(cell.clone()) {
         Data::Float(number) => number.to_string(),
-        // Its number is one of days.
+        // The number behind a date counts days and is no length.
         Data::DateTime(_) | Data::DateTimeIso(_) | Data::DurationIso(_) => "a date".to_owned(),
         other => other.to_string(),
     }

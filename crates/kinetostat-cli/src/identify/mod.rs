@@ -243,7 +243,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
     claimed.finish(&shown, &answer)
 }
 
-/// What is to be identified, and what was read.
+/// Unknowns and observations of a command.
 struct Question {
     unknowns: Unknowns,
     observations: Vec<Observation>,
@@ -304,7 +304,7 @@ fn question(
     })
 }
 
-/// What is left along the program of a job.
+/// Errors along the program of a job, before and after.
 fn errors_at_work(
     job: &Path,
     args: &IdentifyArgs,

@@ -11,7 +11,7 @@ use crate::identify::answer::IdentifyAnswer;
 use crate::identify::text;
 use crate::ui::numbers::{fixed, number};
 
-/// Most numbers whose correlations are drawn: a matrix has 21.
+/// Limit of the numbers whose correlations are drawn: a matrix has 21.
 const MOST_DRAWN: usize = 150;
 
 /// The report of an answer; `observations` are those that were fitted.

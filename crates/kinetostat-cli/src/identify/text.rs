@@ -45,7 +45,7 @@ pub(crate) fn answer_text(a: &IdentifyAnswer) -> String {
     out
 }
 
-/// What was done, and what came of it.
+/// Sentences on the question and on the fit.
 pub(crate) fn sentences(a: &IdentifyAnswer) -> Vec<String> {
     let found = &a.found;
     let left_out = match found.rms_left_out_mm {
@@ -92,7 +92,7 @@ pub(crate) fn sentences(a: &IdentifyAnswer) -> Vec<String> {
     said
 }
 
-/// What the numbers are good for along the program of a job.
+/// Sentence on the errors along the program of a job.
 pub(crate) fn of_work(a: &IdentifyAnswer) -> String {
     let largest = |of: &dyn Fn(&ErrorAtWork) -> f64| {
         let each = a.work.iter().map(|w| of(&w.error));

@@ -103,7 +103,7 @@ fn work_at(
                 at,
             },
             branch: None,
-            // Where all of the machine's own error counts, the tool belongs where it is programmed.
+            // The tool belongs where it is programmed if all of the machine's own error counts.
             readings: match machine.weight {
                 WeightCorrection::All => {
                     Reading::place(at, &place.programmed.translation.vector, 1.0).into()
