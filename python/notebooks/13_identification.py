@@ -177,4 +177,4 @@ plt.show()
 #
 # - Your own robot: `plan_measurement("my_robot.toml", mass_kg=150, sheet="sheet.txt", ...)`, and on Monday morning a cable, a load cell and a dial gauge.
 # - `numbers=["joints", "chain.arm.tilt*.stiffness_n_m_per_rad"]` for bearings that tilt; compare `rms_left_out_mm`.
-# - `out="identified.toml"` writes the model, `uncertain_out="spread.toml"` its uncertainty for `ks.tolerance` and `Machine.compensate`.
+# - `out="identified.toml"` writes the model with its uncertainty, which `ks.tolerance` and `Machine.compensate` read.

@@ -3,6 +3,8 @@
 use kinetostat::MotionKind;
 use kinetostat_model::Model;
 
+use crate::body::Body;
+
 /// Axes of a model, in the order of its controller or of its actuators.
 #[derive(Clone, Debug)]
 pub struct Axes<'m> {
@@ -39,6 +41,14 @@ impl<'m> Axes<'m> {
     #[must_use]
     pub fn names(&self) -> &[(String, MotionKind)] {
         &self.names
+    }
+
+    /// The body of a name, as [`Body::named`].
+    ///
+    /// # Errors
+    /// No such node, or several.
+    pub fn body(&self, name: &str) -> Result<Body, String> {
+        Body::named(&self.model.mechanism, name)
     }
 
     /// Commands of the actuators (m or rad) for what the axes show (m or rad). None if there are not as many values as axes.

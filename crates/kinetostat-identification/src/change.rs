@@ -2,6 +2,7 @@
 
 use kinetostat::Mechanism;
 use nalgebra::{DMatrix, DVector, Matrix6};
+use rayon::prelude::*;
 
 use crate::compliance_matrix::{entries, entry_size, index_of, inverse, matrix_of};
 use crate::error::IdentificationError;
@@ -23,6 +24,20 @@ pub(crate) enum Change {
     Marker(usize, usize),
     /// Not at all: a drive that friction holds back. They follow all numbers of the model, in the order of the drives.
     Friction,
+}
+
+impl Change {
+    /// The same, of machines to which something was done.
+    pub fn of_machine(&self, done: impl Fn(&Mechanism) -> Mechanism) -> Self {
+        match self {
+            Self::Machine { more, less, step } => Self::Machine {
+                more: done(more),
+                less: done(less),
+                step: *step,
+            },
+            other => other.clone(),
+        }
+    }
 }
 
 /// Change of a stiffness matrix with an entry of its inverse: `dK = -K dC K`.
@@ -65,9 +80,9 @@ impl Unknowns {
         values: &DVector<f64>,
     ) -> Result<Vec<Change>, IdentificationError> {
         let own = self.in_file(values);
-        let mut by_number = Vec::with_capacity(own.len());
         let of_model = self.list.iter().filter(|u| u.form.is_of_model());
-        for (i, unknown) in of_model.enumerate() {
+        let of_model: Vec<(usize, &Unknown)> = of_model.enumerate().collect();
+        let by_number = of_model.into_par_iter().map(|(i, unknown)| {
             // The springs are linear in the number, so that a large step is exact.
             let step = match unknown.form {
                 Form::Compliance => 0.25 * own[i],
@@ -88,16 +103,16 @@ impl Unknowns {
                 Form::Compliance | Form::MatrixEntry(..) => difference(&more, &less, double),
                 _ => Vec::new(),
             };
-            by_number.push(match springs.is_empty() {
+            Ok::<_, IdentificationError>(match springs.is_empty() {
                 true => Change::Machine {
                     more,
                     less,
                     step: double,
                 },
                 false => Change::Springs(springs),
-            });
-        }
-        let mut out = self.by_compliance(values, by_number);
+            })
+        });
+        let mut out = self.by_compliance(values, by_number.collect::<Result<_, _>>()?);
         let behind = self.list.iter().skip(out.len());
         out.extend(behind.map(|unknown| match unknown.form {
             Form::Marker(marker, k) => Change::Marker(marker, k),

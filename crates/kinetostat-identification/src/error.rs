@@ -43,13 +43,15 @@ pub enum IdentificationError {
     },
     /// No progress.
     #[error(
-        "the fit did not settle after {steps} steps: the last one still changed a number by {change:.1e} of its size; look for a posture whose load or joints are wrong, or start from a model that is nearer"
+        "the fit did not settle after {steps} steps: the last one still changed a number by {change:.1e} of its size; posture '{posture}' is farthest from it: look at its load and joints, or weigh what is far off less (robust), or start from a model that is nearer"
     )]
     NotConverged {
         /// Steps made.
         steps: usize,
         /// Last change, relative.
         change: f64,
+        /// The posture that is farthest from the last step.
+        posture: String,
     },
     /// A number of geometry or loads, which small loads do not show.
     #[error(

@@ -1,16 +1,18 @@
-//! What was done and read: a posture, a load on the tool, and displacements or places of points of the tool.
+//! What was done and read: a posture, a load, and displacements or places of points of the tool or of other links.
 
 use nalgebra::Vector3;
 
-/// A force and a moment on the tool that keep their direction while it moves.
+use crate::body::{Body, BodyPoint};
+
+/// A force and a moment that keep their direction while the body on which they act moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TestLoad {
     /// Force, N, base axes.
     pub force: Vector3<f64>,
     /// Moment, N m, base axes.
     pub moment: Vector3<f64>,
-    /// Point at which the force acts, m, in the tool's frame.
-    pub at: Vector3<f64>,
+    /// Point at which the force acts.
+    pub at: BodyPoint,
 }
 
 /// What a reading measures.
@@ -18,7 +20,7 @@ pub struct TestLoad {
 pub enum ReadingOf {
     /// Displacement of the marker along a unit vector (base axes), m.
     Along(Vector3<f64>),
-    /// Turn of the tool about a unit vector (base axes), rad.
+    /// Turn of the marker's body about a unit vector (base axes), rad.
     About(Vector3<f64>),
     /// Place of the marker along a unit vector (base axes), from the origin of the base, m: under the load, not by it.
     Place(Vector3<f64>),
@@ -29,8 +31,8 @@ pub enum ReadingOf {
 pub struct Reading {
     /// Quantity.
     pub of: ReadingOf,
-    /// Place of the marker, m, in the tool's frame.
-    pub marker: Vector3<f64>,
+    /// The marker.
+    pub marker: BodyPoint,
     /// Value, m or rad.
     pub value: f64,
     /// Its standard deviation, m or rad.
@@ -62,13 +64,13 @@ pub struct Observation {
 }
 
 impl TestLoad {
-    /// A force at a point of the tool.
+    /// A force at a point: a vector (m) is one of the tool.
     #[must_use]
-    pub fn force_at(at: Vector3<f64>, force: Vector3<f64>) -> Self {
+    pub fn force_at(at: impl Into<BodyPoint>, force: Vector3<f64>) -> Self {
         Self {
             force,
             moment: Vector3::zeros(),
-            at,
+            at: at.into(),
         }
     }
 }
@@ -83,10 +85,11 @@ impl Reading {
     /// Three readings of a marker's displacement, each with the same standard deviation.
     #[must_use]
     pub fn displacement(
-        marker: Vector3<f64>,
+        marker: impl Into<BodyPoint>,
         displacement: &Vector3<f64>,
         deviation: f64,
     ) -> [Self; 3] {
+        let marker = marker.into();
         [0, 1, 2].map(|k| Self {
             of: ReadingOf::Along(Vector3::ith(k, 1.0)),
             marker,
@@ -95,9 +98,10 @@ impl Reading {
         })
     }
 
-    /// Three readings of a marker's place, each with the same standard deviation; `marker` is its nominal place in the tool's frame.
+    /// Three readings of a marker's place, each with the same standard deviation; `marker` is its nominal place.
     #[must_use]
-    pub fn place(marker: Vector3<f64>, place: &Vector3<f64>, deviation: f64) -> [Self; 3] {
+    pub fn place(marker: impl Into<BodyPoint>, place: &Vector3<f64>, deviation: f64) -> [Self; 3] {
+        let marker = marker.into();
         [0, 1, 2].map(|k| Self {
             of: ReadingOf::Place(Vector3::ith(k, 1.0)),
             marker,
@@ -106,12 +110,13 @@ impl Reading {
         })
     }
 
-    /// Three readings of the tool's turn as a rotation vector.
+    /// Three readings of a body's turn as a rotation vector.
     #[must_use]
-    pub fn turn(turn: &Vector3<f64>, deviation: f64) -> [Self; 3] {
+    pub fn turn(on: Body, turn: &Vector3<f64>, deviation: f64) -> [Self; 3] {
+        let at = Vector3::zeros();
         [0, 1, 2].map(|k| Self {
             of: ReadingOf::About(Vector3::ith(k, 1.0)),
-            marker: Vector3::zeros(),
+            marker: BodyPoint { on, at },
             value: turn[k],
             deviation,
         })

@@ -2,11 +2,11 @@
 
 use std::fmt;
 
-use nalgebra::DVector;
+use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::experiment::{Observation, Reading, ReadingOf, by_posture};
+use crate::experiment::{Observation, Reading, ReadingOf, TestLoad, by_posture};
 use crate::fit::Fit;
 use crate::identifiability::Knowledge;
 use crate::identified::{IdentifiedNumber, PostureResiduals};
@@ -217,44 +217,46 @@ const EXCHANGED: f64 = 0.05;
 /// Squares of the residuals of a marker, in standard deviations and for each reading, below which nothing is asked.
 const NOTICEABLE: f64 = 25.0;
 
-/// Pairs of markers under one load whose displacements seem to be exchanged.
+/// What was read of a marker in one posture under one load: three components, and what the fit leaves of them.
+struct MarkerRead<'o> {
+    load: &'o TestLoad,
+    readings: &'o [Reading],
+    left: Vector3<f64>,
+}
+
+/// Pairs of markers under one load whose displacements or places seem to be exchanged.
 pub(crate) fn exchanged_markers(fit: &Fit, observations: &[Observation]) -> Vec<Finding> {
     let mut found = Vec::new();
     for ((name, members), residuals) in by_posture(observations).iter().zip(&fit.linear.residuals) {
-        let own: Vec<&Observation> = members.iter().map(|m| &observations[*m]).collect();
-        // Where the rows of each observation begin.
-        let mut starts = vec![0];
-        for observation in &own {
-            starts.push(
-                starts
-                    .last()
-                    .map_or(0, |last| last + observation.readings.len()),
-            );
+        let mut all: Vec<MarkerRead<'_>> = Vec::new();
+        let mut start = 0;
+        for observation in members.iter().map(|m| &observations[*m]) {
+            for readings in observation.readings.chunk_by(is_of_same_vector) {
+                if readings.len() % 3 == 0 && !matches!(readings[0].of, ReadingOf::About(_)) {
+                    let vectors = readings.chunks(3).enumerate();
+                    all.extend(vectors.map(|(k, readings)| MarkerRead {
+                        load: &observation.load,
+                        readings,
+                        left: residuals.fixed_rows::<3>(start + 3 * k).into_owned(),
+                    }));
+                }
+                start += readings.len();
+            }
         }
-        let displacement =
-            |i: usize| is_displacement(own[i]).then(|| residuals.rows(starts[i], 3).into_owned());
-        for i in 0..own.len() {
-            for j in i + 1..own.len() {
-                let (Some(a), Some(b)) = (displacement(i), displacement(j)) else {
-                    continue;
-                };
-                let (p, q) = (&own[i].readings, &own[j].readings);
-                if own[i].load != own[j].load || p[0].marker == q[0].marker {
+        for (i, a) in all.iter().enumerate() {
+            for b in &all[i + 1..] {
+                let [of_a, of_b] = [a, b].map(|x| &x.readings[0]);
+                let same_kind = of_a.is_place() == of_b.is_place();
+                if a.load != b.load || !same_kind || of_a.marker == of_b.marker {
                     continue;
                 }
-                let between = DVector::from_fn(3, |k, _| q[k].value - p[k].value);
-                let swapped = |r: &DVector<f64>, sign: f64, own: &[Reading]| {
-                    (0..3)
-                        .map(|k| (r[k] + sign * between[k] / own[k].deviation).powi(2))
-                        .sum::<f64>()
-                };
-                let before = a.norm_squared() + b.norm_squared();
-                let after = swapped(&a, 1.0, p) + swapped(&b, -1.0, q);
+                let before = a.left.norm_squared() + b.left.norm_squared();
+                let after = with_values_of(b, a) + with_values_of(a, b);
                 if before > 6.0 * NOTICEABLE && after < EXCHANGED * before {
-                    let mm = |r: &Reading| (r.marker * 1e3).into();
+                    let mm = |r: &Reading| (r.marker.at * 1e3).into();
                     found.push(Finding::Exchanged {
                         posture: (*name).to_owned(),
-                        markers_mm: [mm(&p[0]), mm(&q[0])],
+                        markers_mm: [mm(of_a), mm(of_b)],
                     });
                 }
             }
@@ -263,13 +265,17 @@ pub(crate) fn exchanged_markers(fit: &Fit, observations: &[Observation]) -> Vec<
     found
 }
 
-/// True for the three components of one displacement.
-fn is_displacement(observation: &Observation) -> bool {
-    let lengths = observation
-        .readings
-        .iter()
-        .filter(|r| matches!(r.of, ReadingOf::Along(_)));
-    observation.readings.len() == 3 && lengths.count() == 3
+/// True for neighbours that are components of one displacement or place.
+fn is_of_same_vector(a: &Reading, b: &Reading) -> bool {
+    a.marker == b.marker && std::mem::discriminant(&a.of) == std::mem::discriminant(&b.of)
+}
+
+/// Squares of the residuals of a marker if another's values had been read of it.
+fn with_values_of(other: &MarkerRead<'_>, own: &MarkerRead<'_>) -> f64 {
+    let pairs = own.readings.iter().zip(other.readings);
+    let each = pairs.zip(own.left.iter());
+    each.map(|((own, other), left)| (left + (other.value - own.value) / own.deviation).powi(2))
+        .sum()
 }
 
 /// Ratio of readings to what the model foretells beyond which units are asked about.

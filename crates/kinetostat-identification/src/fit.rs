@@ -132,9 +132,13 @@ pub fn identify(
         }
         (values, postures) = downhill(&values, &next, &postures, &rows_at, &misfit)?;
     }
+    let left = |p: &PostureRows| (&p.values - &p.rows * &values).norm();
+    let named = groups.iter().zip(&postures);
+    let farthest = named.max_by(|(_, a), (_, b)| left(a).total_cmp(&left(b)));
     Err(IdentificationError::NotConverged {
         steps: MOST_STEPS,
         change,
+        posture: farthest.map_or_else(String::new, |((name, _), _)| (*name).to_owned()),
     })
 }
 

@@ -5,12 +5,11 @@
 //! can be known, and the estimate drifts. So the rank is decided on the rigid Jacobian, of the machine without weights and loads, and
 //! what it takes to zero keeps its nominal value [theory: identification, section 3].
 
+use kinetostat::Mechanism;
 use kinetostat::linalg::SingularValues;
 use kinetostat::number::larger;
 use nalgebra::{DMatrix, DVector, RowDVector, Vector3};
-use rayon::prelude::*;
 
-use crate::change::Change;
 use crate::error::IdentificationError;
 use crate::experiment::{Observation, Reading, TestLoad};
 use crate::geometry::is_geometry;
@@ -108,27 +107,24 @@ fn rigid_jacobian(
     observations: &[Observation],
 ) -> Result<DMatrix<f64>, IdentificationError> {
     let values = unknowns.nominal();
-    let mechanism = unknowns.mechanism(&values)?.without_own_loads();
-    let mut changes = unknowns.changes(&values)?;
-    for change in &mut changes {
-        if let Change::Machine { more, less, .. } = change {
-            *more = more.without_own_loads();
-            *less = less.without_own_loads();
-        }
-    }
+    let changes = unknowns.changes(&values)?;
     let machine = Machine {
-        mechanism: &mechanism,
-        changes: &changes,
+        mechanism: unknowns.mechanism(&values)?.without_own_loads(),
+        changes: changes
+            .iter()
+            .map(|c| c.of_machine(Mechanism::without_own_loads))
+            .collect(),
         markers: &unknowns.markers,
         places: unknowns.marker_places(&values),
     };
-    let each = observations.par_iter().map(|observation| {
+    let each = machine.each(observations, |machine, observation| {
         let mut places = observation.clone();
         places.load = TestLoad::force_at(observation.load.at, Vector3::zeros());
         places.readings.retain(Reading::is_place);
         let rows = machine.loaded(&places)?.derivatives;
         Ok(rows.row_iter().map(|row| row.into_owned()).collect())
     });
-    let rows: Vec<Vec<RowDVector<f64>>> = each.collect::<Result<_, IdentificationError>>()?;
+    let rows = each.into_iter();
+    let rows: Vec<Vec<RowDVector<f64>>> = rows.collect::<Result<_, IdentificationError>>()?;
     Ok(DMatrix::from_rows(&rows.concat()))
 }

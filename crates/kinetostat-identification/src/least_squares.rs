@@ -165,7 +165,7 @@ fn weighted(
         triangle[(i, j)] * sizes[j]
     });
     let (inverse, rank) = pseudo_inverse(&scaled);
-    let mut held = inverse.clone();
+    let mut held = None;
     let mut estimate = from + (&inverse * left).component_mul(sizes);
     let mut at_bound = Vec::new();
     if !constraints.iter().all(|c| c.holds(&estimate)) {
@@ -177,7 +177,8 @@ fn weighted(
             sizes,
         };
         if let Some(found) = with_zeros(&problem, &scaled, &estimate) {
-            (estimate, held, at_bound) = (found.estimate, found.inverse, found.zeros);
+            held = Some(found.inverse);
+            (estimate, at_bound) = (found.estimate, found.zeros);
         } else {
             let solved = problem.solve()?;
             estimate = solved.estimate;
@@ -188,7 +189,7 @@ fn weighted(
                 Constraint::NonNegative(column) => Some(*column),
                 Constraint::PositiveSemidefinite(_) => None,
             });
-            held = without(&scaled, &single.collect::<Vec<_>>());
+            held = Some(without(&scaled, &single.collect::<Vec<_>>()));
         }
     }
     let normal = |inverse: &DMatrix<f64>| {
@@ -197,9 +198,10 @@ fn weighted(
             scaled[(i, j)] * sizes[i] * sizes[j]
         })
     };
+    let normal_inverse = normal(&inverse);
     Ok(LinearFit {
-        normal_inverse: normal(&inverse),
-        held_inverse: normal(&held),
+        held_inverse: held.map_or_else(|| normal_inverse.clone(), |own| normal(&own)),
+        normal_inverse,
         rank,
         residuals: postures
             .iter()

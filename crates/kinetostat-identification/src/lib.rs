@@ -5,10 +5,10 @@
 //!
 //! ```text
 //! table              measurements as text: postures, loads, readings; the frame of the instrument
-//! experiment         the same as observations
+//! experiment         the same as observations; body: what is loaded and read, the tool or a node of a limb
 //! unknown            which numbers of the model, as compliances; springs, change: what they change
 //! geometry, markers  errors of the geometry and places of markers as unknowns; gauge: which of their combinations are free
-//! prediction         what the machine would show, and its derivatives
+//! prediction         what the machine would show, and its derivatives; push: small motions of it at rest
 //! least_squares      weighted least squares by postures; cone: with physical constraints
 //! fit                Gauss-Newton steps over both
 //! identifiability    what the readings see
@@ -18,6 +18,7 @@
 //! ```
 
 mod axes;
+mod body;
 mod change;
 mod compliance_matrix;
 mod cone;
@@ -34,6 +35,7 @@ mod least_squares;
 mod markers;
 mod plan;
 mod prediction;
+mod push;
 mod random;
 mod resampling;
 mod result;
@@ -44,6 +46,7 @@ mod work;
 mod written;
 
 pub use axes::Axes;
+pub use body::{Body, BodyPoint};
 pub use cone::{Constrained, ConstrainedRows, Constraint, NotSolved, UNSEEN};
 pub use error::IdentificationError;
 pub use experiment::{Branch, Observation, Reading, ReadingOf, TestLoad};
@@ -63,4 +66,4 @@ pub use table::{
 };
 pub use unknown::{Form, Unknown, Unknowns};
 pub use work::ErrorAtWork;
-pub use written::{identified_model, uncertainty_file};
+pub use written::identified_model;

@@ -1,4 +1,4 @@
-//! Places of the markers in the tool's frame as unknowns.
+//! Places of the markers in the frames of their bodies as unknowns.
 
 use kinetostat_model::{Parameter, ParameterKind};
 use nalgebra::{DVector, Vector3};
@@ -12,7 +12,7 @@ use crate::unknown::{Form, Unknown, Unknowns};
 pub const MARKER_ERROR: f64 = 0.1;
 
 impl Unknowns {
-    /// The same, and the places in the tool's frame of all markers whose places were read. The place that a reading states is the
+    /// The same, and the places in their bodies' frames of all markers whose places were read. The place that a reading states is the
     /// nominal one, from which the fit starts; `size` (m) is what its error is compared with where readings do not tell it from one of a link, usually
     /// [`MARKER_ERROR`].
     #[must_use]
@@ -24,7 +24,7 @@ impl Unknowns {
             }
             let marker = self.markers.len();
             self.markers.push(reading.marker);
-            for (k, (axis, at)) in AXES.iter().zip(reading.marker.iter()).enumerate() {
+            for (k, (axis, at)) in AXES.iter().zip(reading.marker.at.iter()).enumerate() {
                 self.list.push(Unknown {
                     parameter: Parameter {
                         path: format!("{MARKER}{}.{axis}", marker + 1),
@@ -42,9 +42,9 @@ impl Unknowns {
         self
     }
 
-    /// Places of the markers in the tool's frame, m, in the order of `markers`.
+    /// Places of the markers in the frames of their bodies, m, in the order of `markers`.
     pub(crate) fn marker_places(&self, values: &DVector<f64>) -> Vec<Vector3<f64>> {
-        let mut places = self.markers.clone();
+        let mut places: Vec<Vector3<f64>> = self.markers.iter().map(|m| m.at).collect();
         for (unknown, value) in self.list.iter().zip(values.iter()) {
             if let Form::Marker(marker, k) = unknown.form {
                 places[marker][k] = *value;

@@ -141,7 +141,7 @@ pub fn plan(task: &PlanTask<'_>) -> Result<Plan, PlanError> {
     };
     let rows = predictions.iter().map(|p| scaled(p, task.deviation));
     let rows: Vec<DMatrix<f64>> = rows.collect();
-    // A number on which no reading depends is no matter of choice.
+    // A number that no reading shows is no matter of choice.
     let shown = shown(&rows, all);
     if shown.is_empty() {
         return Err(PlanError::NothingSeen);
@@ -407,12 +407,16 @@ fn distance(a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>, d: &Vector3<f6
     ends.into_iter().fold(between, smaller)
 }
 
-/// Numbers on which a reading depends.
+/// Change of a reading, in its standard deviations, that a number makes which is off by its whole size, and below which no plan
+/// knows it: joints behind a load move the tool by what their weights do.
+const NOTHING_SHOWN: f64 = 0.1;
+
+/// Numbers on which a reading depends noticeably.
 fn shown(rows: &[DMatrix<f64>], unknowns: usize) -> Vec<usize> {
     let largest = |j: usize| rows.iter().map(|a| a.column(j).amax()).fold(0.0, larger);
-    let each: Vec<f64> = (0..unknowns).map(largest).collect();
-    let most = each.iter().copied().fold(0.0, larger);
-    (0..unknowns).filter(|j| each[*j] > 1e-9 * most).collect()
+    (0..unknowns)
+        .filter(|j| largest(*j) > NOTHING_SHOWN)
+        .collect()
 }
 
 fn seen_alone(rows: &[DMatrix<f64>], unknowns: usize) -> Vec<bool> {

@@ -13,16 +13,20 @@
 //! *As loaded.* The reading is the pose under load and weights less the pose under the weights alone, both solved; the derivative of each
 //! is that of its equilibrium (implicit function theorem, [`kinetostat::machine::LinearisedMachine::removing`]).
 
+use std::collections::BTreeMap;
+
 use kinetostat::machine::{MachineMotion, MachineResidual};
 use kinetostat::number::larger;
-use kinetostat::spatial::hat;
-use kinetostat::{Mechanism, MechanismEquilibrium, Pose, Posture, PostureRequest, Wrench};
+use kinetostat::spatial::{hat, pose_residual};
+use kinetostat::{Mechanism, MechanismEquilibrium, Pose, Posture, PostureRequest};
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3, Vector6};
 use rayon::prelude::*;
 
+use crate::body::{BodyPoint, PlacedBody};
 use crate::change::Change;
 use crate::error::IdentificationError;
 use crate::experiment::{Observation, Reading, ReadingOf};
+use crate::push::{Push, no_residual};
 use crate::springs::{SpringChange, drive_coordinates};
 use crate::unknown::Unknowns;
 
@@ -76,8 +80,8 @@ pub(crate) fn predict_each(
         return Err(IdentificationError::NeedsLoads { path });
     }
     let machine = Machine {
-        mechanism: &mechanism,
-        changes: &changes,
+        mechanism,
+        changes,
         markers: &unknowns.markers,
         places: unknowns.marker_places(values),
     };
@@ -86,56 +90,86 @@ pub(crate) fn predict_each(
         let posture = own.posture.clone();
         return Err(IdentificationError::PlacesNeedLoads { posture });
     }
-    let each = observations.par_iter().map(|observation| {
+    Ok(machine.each(observations, |machine, observation| {
         let mut found = match theory {
             Theory::SmallLoads => machine.small(observation),
             Theory::Loaded => machine.loaded(observation),
         }?;
         machine.add_friction(observation, values, &mut found)?;
         Ok(found)
-    });
-    Ok(each.collect())
+    }))
 }
 
 /// Share of the largest torque below which a drive is not loaded.
 const NO_TORQUE: f64 = 1e-4;
 
-/// A machine that answers, and how it changes with the unknowns.
+/// A machine that answers, with the tool's frame at the point where loads act on it, and how it changes with the unknowns.
 pub(crate) struct Machine<'a> {
-    pub mechanism: &'a Mechanism,
-    pub changes: &'a [Change],
+    pub mechanism: Mechanism,
+    pub changes: Vec<Change>,
     /// Nominal places of the markers whose places are unknown.
-    pub markers: &'a [Vector3<f64>],
-    /// The places of these markers, m, in the tool's frame.
+    pub markers: &'a [BodyPoint],
+    /// The places of these markers, m, in the frames of their bodies.
     pub places: Vec<Vector3<f64>>,
 }
 
-/// A machine in an equilibrium.
+/// The body of a reading in an equilibrium.
 #[derive(Clone)]
-struct Reached {
-    tool: Pose,
-    /// Motions of the tool as each unknown grows, per its unit.
+struct ReadBody {
+    pose: Pose,
+    /// Its motions as each unknown grows, per its unit.
     motions: Vec<Vector6<f64>>,
 }
 
 impl Machine<'_> {
-    fn small(&self, observation: &Observation) -> Result<Prediction, IdentificationError> {
-        let posture = posture_of(self.mechanism, observation)?.as_drawn();
-        let free = || IdentificationError::Free {
-            posture: observation.posture.clone(),
+    /// Answers for all observations, in their order. The tool's frame is put to each point at which loads act on it, once for all
+    /// observations that have it.
+    pub fn each<A: Send>(
+        &self,
+        observations: &[Observation],
+        answer: impl Fn(&Self, &Observation) -> A + Sync,
+    ) -> Vec<A> {
+        let mut by_point: BTreeMap<[u64; 3], Vec<usize>> = BTreeMap::new();
+        for (i, observation) in observations.iter().enumerate() {
+            let at: [f64; 3] = observation.load.tool_at().into();
+            by_point.entry(at.map(f64::to_bits)).or_default().push(i);
+        }
+        let groups = by_point.par_iter().flat_map(|(at, members)| {
+            let machine = self.with_tool_at(&at.map(f64::from_bits).into());
+            let own = members.par_iter();
+            own.map(|i| (*i, answer(&machine, &observations[*i])))
+                .collect::<Vec<_>>()
+        });
+        let mut answers: Vec<(usize, A)> = groups.collect();
+        answers.sort_by_key(|(i, _)| *i);
+        answers.into_iter().map(|(_, answer)| answer).collect()
+    }
+
+    fn with_tool_at(&self, at: &Vector3<f64>) -> Self {
+        let moved = |mechanism: &Mechanism| match *at == Vector3::zeros() {
+            true => mechanism.clone(),
+            false => mechanism.with_tool(&Pose::translation(at.x, at.y, at.z)),
         };
-        let mut tangent = posture.linearised_at_rest();
-        let tool = posture.mechanism().tool();
-        let load = Wrench::new(observation.load.force, observation.load.moment);
-        let under_load = tangent.under(&load).ok_or_else(free)?;
+        Self {
+            mechanism: moved(&self.mechanism),
+            changes: self.changes.iter().map(|c| c.of_machine(moved)).collect(),
+            markers: self.markers,
+            places: self.places.clone(),
+        }
+    }
+
+    fn small(&self, observation: &Observation) -> Result<Prediction, IdentificationError> {
+        let posture = posture_of(&self.mechanism, observation)?.as_drawn();
+        let mut push = Push::at_rest(&posture, observation)?;
+        let load = &observation.load;
+        let under_load = push.by_load(load)?;
         let count = observation.readings.len();
         let mut values = DVector::zeros(count);
         let mut derivatives = DMatrix::zeros(count, self.changes.len());
         for (i, reading) in observation.readings.iter().enumerate() {
-            let arm = posture.target().rotation * (reading.marker - observation.load.at);
-            let unit = wrench_of(reading, &arm);
-            values[i] = under_load.platforms[tool].0.dot(&unit.0);
-            let virtual_motion = tangent.under(&unit).ok_or_else(free)?;
+            let (body, unit) = push.unit(reading);
+            values[i] = body.twist(&under_load).dot(&unit.0);
+            let virtual_motion = push.by(&body, &unit)?;
             for (column, change) in self.changes.iter().enumerate() {
                 let Change::Springs(springs) = change else {
                     continue;
@@ -164,11 +198,8 @@ impl Machine<'_> {
         ) else {
             return Ok(());
         };
-        let free = || IdentificationError::Free {
-            posture: observation.posture.clone(),
-        };
-        let posture = posture_of(self.mechanism, observation)?.as_drawn();
-        let mut tangent = posture.linearised_at_rest();
+        let posture = posture_of(&self.mechanism, observation)?.as_drawn();
+        let mut push = Push::at_rest(&posture, observation)?;
         let torque = |motion: &MachineMotion, (limb, coordinate): (usize, usize)| {
             let chain = &posture.mechanism().limbs()[limb].actual;
             let spring = chain.springs().iter().find(|s| s.first == coordinate);
@@ -176,11 +207,9 @@ impl Machine<'_> {
                 spring.map_or(0.0, |s| s.stiffness_at(&chain.home_coordinates())[(0, 0)]);
             stiffness * motion.coordinates[limb][coordinate]
         };
-        let whole = tangent
-            .under(&Wrench::new(branch.whole.force, branch.whole.moment))
-            .ok_or_else(free)?;
+        let whole = push.by_load(&branch.whole)?;
         let grows = if branch.unloading { -1.0 } else { 1.0 };
-        let drives = drive_coordinates(self.mechanism);
+        let drives = drive_coordinates(&self.mechanism);
         let torques = drives
             .iter()
             .map(|(_, at)| at.map_or(0.0, |at| torque(&whole, at)));
@@ -196,8 +225,8 @@ impl Machine<'_> {
         });
         let signs: Vec<f64> = signs.collect();
         for (i, reading) in observation.readings.iter().enumerate() {
-            let arm = posture.target().rotation * (reading.marker - observation.load.at);
-            let virtual_motion = tangent.under(&wrench_of(reading, &arm)).ok_or_else(free)?;
+            let (body, unit) = push.unit(reading);
+            let virtual_motion = push.by(&body, &unit)?;
             for (sign, (k, (_, at))) in signs.iter().zip((first..).zip(&drives)) {
                 let Some(at) = at else { continue };
                 let derivative = -grows * sign * torque(&virtual_motion, *at);
@@ -208,10 +237,10 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Place of the marker of a reading in the tool's frame.
+    /// Place of the marker of a reading in the frame of its body.
     fn place_of(&self, reading: &Reading) -> Vector3<f64> {
         let own = self.markers.iter().position(|m| *m == reading.marker);
-        own.map_or(reading.marker, |marker| self.places[marker])
+        own.map_or(reading.marker.at, |marker| self.places[marker])
     }
 
     /// Readings by equilibria, with their derivatives.
@@ -219,55 +248,55 @@ impl Machine<'_> {
         &self,
         observation: &Observation,
     ) -> Result<Prediction, IdentificationError> {
-        let posture = posture_of(self.mechanism, observation)?;
-        let reached = |wrench: &Wrench| {
-            let found = posture.deflected_by(wrench);
-            let found = found.map_err(|reason| refused(observation, reason))?;
-            Ok::<_, IdentificationError>(Reached {
-                motions: self.motions(observation, &posture, &found)?,
-                tool: found.tool,
-            })
-        };
         let readings = &observation.readings;
-        let under = reached(&Wrench::new(
-            observation.load.force,
-            observation.load.moment,
-        ))?;
+        let under = self.reached(observation)?;
         // Only displacements and turns are differences.
         let rest = match readings.iter().all(Reading::is_place) {
             true => under.clone(),
-            false => reached(&Wrench::zero())?,
+            false => {
+                let mut unloaded = observation.clone();
+                unloaded.load.force.fill(0.0);
+                unloaded.load.moment.fill(0.0);
+                self.reached(&unloaded)?
+            }
         };
-        let arm = |at: &Reached, reading: &Reading| {
-            at.tool.rotation * (self.place_of(reading) - observation.load.at)
+        let load = &observation.load;
+        let arms = readings
+            .iter()
+            .map(|r| load.arm_to(r.marker.on, self.place_of(r)));
+        let arms: Vec<Vector3<f64>> = arms.collect();
+        let place = |at: &[ReadBody], i: usize| {
+            at[i].pose.rotation * arms[i] + at[i].pose.translation.vector
         };
-        let turn = (under.tool.rotation * rest.tool.rotation.inverse()).scaled_axis();
-        let moved = under.tool.translation.vector - rest.tool.translation.vector;
-        let values = readings.iter().map(|reading| match reading.of {
-            ReadingOf::Along(n) => n.dot(&(moved + arm(&under, reading) - arm(&rest, reading))),
-            ReadingOf::About(n) => n.dot(&turn),
-            ReadingOf::Place(n) => n.dot(&(under.tool.translation.vector + arm(&under, reading))),
-        });
+        let turn =
+            |i: usize| (under[i].pose.rotation * rest[i].pose.rotation.inverse()).scaled_axis();
+        let values = readings
+            .iter()
+            .enumerate()
+            .map(|(i, reading)| match reading.of {
+                ReadingOf::Along(n) => n.dot(&(place(&under, i) - place(&rest, i))),
+                ReadingOf::About(n) => n.dot(&turn(i)),
+                ReadingOf::Place(n) => n.dot(&place(&under, i)),
+            });
         let values = DVector::from_iterator(readings.len(), values);
-        let marker_motion =
-            |at: &Reached, reading: &Reading, column: usize| match self.changes[column] {
-                Change::Marker(marker, k) if self.markers[marker] == reading.marker => {
-                    at.tool.rotation * Vector3::ith(k, 1.0)
+        let moved = |at: &[ReadBody], i: usize, column: usize| {
+            let rotation = at[i].pose.rotation;
+            match self.changes[column] {
+                Change::Marker(marker, k) if self.markers[marker] == readings[i].marker => {
+                    rotation * Vector3::ith(k, 1.0)
                 }
-                _ => twist_at(&at.motions[column], &arm(at, reading)),
-            };
-        let along_turn = rate_of_rotation_vector(&turn);
-        let turned = Rotation3::new(turn);
+                _ => twist_at(&at[i].motions[column], &(rotation * arms[i])),
+            }
+        };
         let derivatives = DMatrix::from_fn(readings.len(), self.changes.len(), |i, column| {
-            let moved = |at: &Reached| marker_motion(at, &readings[i], column);
+            let turned = |at: &[ReadBody]| angular(&at[i].motions[column]);
             match readings[i].of {
-                ReadingOf::Along(n) => n.dot(&(moved(&under) - moved(&rest))),
-                ReadingOf::About(n) => n.dot(
-                    &(along_turn
-                        * (angular(&under.motions[column])
-                            - turned * angular(&rest.motions[column]))),
-                ),
-                ReadingOf::Place(n) => n.dot(&moved(&under)),
+                ReadingOf::Along(n) => n.dot(&(moved(&under, i, column) - moved(&rest, i, column))),
+                ReadingOf::About(n) => {
+                    let rate = turned(&under) - Rotation3::new(turn(i)) * turned(&rest);
+                    n.dot(&(rate_of_rotation_vector(&turn(i)) * rate))
+                }
+                ReadingOf::Place(n) => n.dot(&moved(&under, i, column)),
             }
         });
         Ok(Prediction {
@@ -276,66 +305,67 @@ impl Machine<'_> {
         })
     }
 
-    /// Motions of the tool as each unknown grows, per its unit.
-    fn motions(
-        &self,
-        observation: &Observation,
-        posture: &Posture,
-        at: &MechanismEquilibrium,
-    ) -> Result<Vec<Vector6<f64>>, IdentificationError> {
+    /// The body of every reading, in the equilibrium under the load of an observation.
+    fn reached(&self, observation: &Observation) -> Result<Vec<ReadBody>, IdentificationError> {
         let machine = |reason| refused(observation, reason);
-        let mut tangent = posture.linearised(at).map_err(machine)?;
-        let tool = posture.mechanism().tool();
-        let mut zero = posture
-            .residual_at(&at.state, &at.wrench)
+        let posture = posture_of(&self.mechanism, observation)?;
+        let at = posture
+            .deflected_by(&observation.load.on_tool())
             .map_err(machine)?;
-        zero.closures.iter_mut().for_each(|c| c.fill(0.0));
-        zero.torques.iter_mut().for_each(|t| t.fill(0.0));
-        zero.platforms.iter_mut().for_each(|w| w.0.fill(0.0));
-        let each = self.changes.iter().map(|change| {
+        let place = |reading: &Reading| PlacedBody::of(reading.marker.on, &posture, &at.state);
+        let bodies: Vec<PlacedBody> = observation.readings.iter().map(place).collect();
+        let still = |body: &PlacedBody| ReadBody {
+            pose: body.pose,
+            motions: vec![Vector6::zeros(); self.changes.len()],
+        };
+        let mut read: Vec<ReadBody> = bodies.iter().map(still).collect();
+        let mut tangent = posture.linearised(&at).map_err(machine)?;
+        let zero = no_residual(&posture, &at.state).map_err(machine)?;
+        for (column, change) in self.changes.iter().enumerate() {
             let residual = match change {
                 Change::Springs(springs) => {
                     let mut residual = zero.clone();
                     springs
                         .iter()
-                        .for_each(|s| s.add_residual(posture, at, &mut residual));
+                        .for_each(|s| s.add_residual(&posture, &at, &mut residual));
                     residual
                 }
-                Change::Marker(..) | Change::Friction => return Ok(Vector6::zeros()),
+                Change::Marker(..) | Change::Friction => continue,
                 Change::Machine { more, less, step } => {
-                    let of = |m: &Mechanism| {
-                        let posture = posture_of(m, observation)?;
-                        posture.residual_at(&at.state, &at.wrench).map_err(machine)
-                    };
-                    let (more, less) = (of(more)?, of(less)?);
-                    let difference = [(1.0 / step, &more), (-1.0 / step, &less)];
+                    let more = posture_of(more, observation)?;
+                    let less = posture_of(less, observation)?;
+                    for (own, reading) in read.iter_mut().zip(&observation.readings) {
+                        let of = |p: &Posture| PlacedBody::of(reading.marker.on, p, &at.state).pose;
+                        own.motions[column] = pose_residual(&of(&more), &of(&less)).0 / *step;
+                    }
+                    let of = |p: &Posture| p.residual_at(&at.state, &at.wrench).map_err(machine);
+                    let difference = [(1.0 / step, &of(&more)?), (-1.0 / step, &of(&less)?)];
                     MachineResidual::combined(&difference).unwrap_or_else(|| zero.clone())
                 }
             };
             let motion = tangent.removing(&residual);
-            let motion = motion.ok_or_else(|| IdentificationError::Free {
-                posture: observation.posture.clone(),
-            })?;
-            Ok(motion.platforms[tool].0)
-        });
-        each.collect()
+            let motion = motion.ok_or_else(|| free(observation))?;
+            for (own, body) in read.iter_mut().zip(&bodies) {
+                own.motions[column] += body.twist(&motion);
+            }
+        }
+        Ok(read)
     }
 }
 
-/// The posture with the tool's origin at the point of the load.
+/// The posture under the load, if it acts on a node.
 fn posture_of(
     mechanism: &Mechanism,
     observation: &Observation,
 ) -> Result<Posture, IdentificationError> {
-    let at = observation.load.at;
-    let moved = match at == Vector3::zeros() {
-        true => mechanism.clone(),
-        false => mechanism.with_tool(&Pose::translation(at.x, at.y, at.z)),
-    };
-    let request = PostureRequest::commands(&observation.commands);
-    moved
-        .posture(request)
-        .map_err(|reason| refused(observation, reason))
+    let machine = |reason| refused(observation, reason);
+    let loaded = observation
+        .load
+        .on_nodes(mechanism.clone())
+        .map_err(machine)?;
+    loaded
+        .posture(PostureRequest::commands(&observation.commands))
+        .map_err(machine)
 }
 
 impl SpringChange {
@@ -395,15 +425,13 @@ fn rate_of_rotation_vector(turn: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::identity() - cross * 0.5 + cross * cross * square
 }
 
-/// Unit wrench on the tool whose work is the reading; `arm` from the tool's origin to the marker, base axes.
-fn wrench_of(reading: &Reading, arm: &Vector3<f64>) -> Wrench {
-    match reading.of {
-        ReadingOf::Along(n) | ReadingOf::Place(n) => Wrench::new(n, arm.cross(&n)),
-        ReadingOf::About(n) => Wrench::new(Vector3::zeros(), n),
+pub(crate) fn free(observation: &Observation) -> IdentificationError {
+    IdentificationError::Free {
+        posture: observation.posture.clone(),
     }
 }
 
-fn refused(observation: &Observation, reason: kinetostat::Error) -> IdentificationError {
+pub(crate) fn refused(observation: &Observation, reason: kinetostat::Error) -> IdentificationError {
     IdentificationError::Posture {
         posture: observation.posture.clone(),
         reason,

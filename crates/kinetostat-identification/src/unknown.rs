@@ -6,8 +6,9 @@
 
 use kinetostat::Mechanism;
 use kinetostat_model::{Model, Parameter, ParameterKind, ParametricModel};
-use nalgebra::{DVector, Vector3};
+use nalgebra::DVector;
 
+use crate::body::BodyPoint;
 use crate::compliance_matrix::{entries, entry_size, inverse, matrix_of, with_unit_diagonal};
 use crate::cone::Constraint;
 use crate::error::IdentificationError;
@@ -36,7 +37,7 @@ pub enum Form {
     Value,
     /// Shift or turn of a deviation of the geometry.
     Geometry,
-    /// Component of the place of a marker in the tool's frame: no number of the model.
+    /// Component of the place of a marker in the frame of its body: no number of the model.
     Marker(usize, usize),
     /// Angle or length by which friction holds a drive back, while its torque grows as while it shrinks: no number of the model.
     Friction,
@@ -67,8 +68,8 @@ pub struct Unknown {
 pub struct Unknowns {
     pub(crate) parametric: ParametricModel,
     pub(crate) list: Vec<Unknown>,
-    /// Nominal places of the markers whose places are unknown, m, in the tool's frame.
-    pub(crate) markers: Vec<Vector3<f64>>,
+    /// Markers whose places are unknown, at their nominal places.
+    pub(crate) markers: Vec<BodyPoint>,
 }
 
 impl Unknowns {

@@ -1,6 +1,6 @@
 //! Where the machine works: what its own numbers would have left of the tool's displacement there, and what the identified ones leave.
 
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{DMatrix, DVector};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -51,7 +51,7 @@ impl Identification {
         unknowns
             .markers
             .iter_mut()
-            .for_each(|m| *m = Vector3::repeat(f64::NAN));
+            .for_each(|m| m.at.fill(f64::NAN));
         let of = |values: &DVector<f64>| predict(&unknowns, values, work, theory);
         let (before, after) = (of(&unknowns.nominal())?, of(&fit.linear.estimate)?);
         let sizes = unknowns.sizes();

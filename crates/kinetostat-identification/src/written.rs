@@ -36,13 +36,42 @@ pub fn identified_model(
     let edits = found.numbers.iter().filter_map(edit);
     let (errors, others): (Vec<_>, Vec<_>) = edits.partition(|e| e.path.starts_with(DEVIATION));
     let model = model.edited(&others)?;
-    match model.document.deviation.is_empty() {
-        true => {
-            let text = format!("{}{}", model.text, deviations(&model, &errors));
-            Ok(Model::from_toml(&text, &model.file)?)
+    let (model, errors) = match model.document.deviation.is_empty() {
+        true => (model.clone(), deviations(&model, &errors)),
+        false => (model.edited(&errors)?, String::new()),
+    };
+    let text = format!(
+        "{}{errors}{}",
+        without_uncertainties(&model.text, found),
+        uncertainties(found, source)
+    );
+    Ok(Model::from_toml(&text, &model.file)?)
+}
+
+/// The text without the tables of uncertainties that name an identified number: those of an earlier identification.
+fn without_uncertainties(text: &str, found: &Identification) -> String {
+    let own: Vec<String> = found
+        .numbers
+        .iter()
+        .map(|n| format!("{:?}", n.number))
+        .collect();
+    let mut tables = vec![String::new()];
+    for line in text.split_inclusive('\n') {
+        if line.trim_start().starts_with('[') {
+            tables.push(String::new());
         }
-        false => Ok(model.edited(&errors)?),
+        if let Some(last) = tables.last_mut() {
+            last.push_str(line);
+        }
     }
+    let is_old = |table: &String| {
+        ["[[uncertain]]", "[[correlation]]"]
+            .iter()
+            .any(|head| table.trim_start().starts_with(head))
+            && own.iter().any(|name| table.contains(name))
+    };
+    tables.retain(|table| !is_old(table));
+    tables.concat()
 }
 
 /// Tables of deviations that a model without any gets at its end.
@@ -76,16 +105,15 @@ fn deviations(model: &Model, errors: &[NumberEdit]) -> String {
 /// Relative standard deviation beyond which a normal distribution has machines with negative stiffness among thousands.
 const WIDEST: f64 = 24.0;
 
-/// The uncertainty of the identified numbers as a file for `tolerance` and for bands of compensated programs.
-#[must_use]
-pub fn uncertainty_file(found: &Identification, source: &str) -> String {
+/// The uncertainty of the identified numbers as tables of a model file, for `tolerance` and for bands of compensated programs.
+fn uncertainties(found: &Identification, source: &str) -> String {
     let of_model = (found.numbers.iter().enumerate())
         .filter(|(_, n)| n.is_of_model && n.identified.is_some())
         .filter_map(|(i, n)| Some((i, n, n.deviation.zip(n.deviation_percent)?)));
     let (wide, known): (Vec<_>, Vec<_>) =
         of_model.partition(|(_, _, (_, percent))| *percent > WIDEST);
     let mut out = format!(
-        "# Standard deviations and correlations of the numbers that were identified from {source}.\nschema = 1\n"
+        "\n# Standard deviations and correlations of the numbers that were identified from {source}.\n"
     );
     for (_, number, (_, percent)) in wide {
         out += &format!(

@@ -14,7 +14,7 @@ use kinetostat_diagnostic::{Diagnostic, ErrorCode, Location};
 use kinetostat_identification::{
     Axes, DEVIATION, FitOptions, Identification, IdentificationError, MARKER_ERROR, MeasuredRow,
     Observation, Reading, TableFault, Theory, Unknowns, identification, identified_model,
-    into_base, observations, places, read_table, uncertainty_file,
+    into_base, observations, places, read_table,
 };
 use kinetostat_model::Model;
 
@@ -70,12 +70,9 @@ pub(crate) struct IdentifyArgs {
     /// Job of the work that the machine is for: what is left along its program before and after
     #[arg(long, value_name = "JOB")]
     pub(crate) work: Option<PathBuf>,
-    /// Model file with the identified numbers
+    /// Model file with the identified numbers, their standard deviations and correlations
     #[arg(long, short, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) out: Option<PathBuf>,
-    /// Their standard deviations and correlations, for `tolerance --uncertain` and `compensate --uncertain`
-    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
-    pub(crate) uncertain_out: Option<PathBuf>,
     /// The report with pictures, as one HTML file
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) report: Option<PathBuf>,
@@ -91,21 +88,21 @@ The table is CSV (commas, semicolons or tabs), XLSX (the first sheet) or
 Parquet. Its columns:
   posture              name; rows of the same name share its errors
   A1_deg, A2_deg, ...  axes as the controller shows them, or the model's joints
-  fx_n, fy_n, fz_n     force on the tool, base axes; mx_n_m, my_n_m, mz_n_m
-  mass_kg              mass that hangs on the tool
-  load_x_mm, ...       where force and mass act, in the tool's frame
-  marker_x_mm, ...     the point that is read, in the tool's frame
+  fx_n, fy_n, fz_n     force, base axes; mx_n_m, my_n_m, mz_n_m: moment
+  mass_kg              mass that hangs on the machine
+  load_on              node or body on which they act (the tool without it)
+  load_x_mm, ...       where they act, in the frame of the tool or node
+  marker_on, marker_x_mm, ...  the point that is read, in the same way
   dx_mm, dy_mm, dz_mm  its displacement by the load, base axes (_um, _m)
   x_mm, y_mm, z_mm     its place, loaded and (loads of zero) unloaded
-  rx_mrad, ...         turn of the tool by the load (_deg, _rad, _urad)
+  rx_mrad, ...         turn of the tool or node by the load (_deg, _rad, _urad)
   gauge_mm, gauge_x, gauge_y, gauge_z  a dial gauge, and where it counts up
   sigma_mm             standard deviation of this row
   branch               loading or unloading (--friction)
   note                 anything
 
 Examples:
-  kinetostat identify my_robot.toml --measured pulls.csv -o identified.toml \\
-      --uncertain-out spread.toml
+  kinetostat identify my_robot.toml --measured pulls.csv -o identified.toml
   kinetostat identify my_robot.toml --measured pulls.xlsx --work milling.toml \\
       --report pulls.html
   kinetostat identify my_robot.toml --measured places.csv \\
@@ -167,7 +164,6 @@ pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
             .transpose()
     };
     let out = claim("model", &args.out)?;
-    let uncertain = claim("uncertainties", &args.uncertain_out)?;
     let report_file = claim("report", &args.report)?;
     let pdf_file = claim("report", &args.pdf)?;
     let Question {
@@ -207,9 +203,6 @@ pub(crate) fn run(args: &IdentifyArgs) -> Answer<()> {
             env!("CARGO_PKG_VERSION")
         );
         claimed.fill(index, format!("{head}{}", identified.text).as_bytes())?;
-    }
-    if let Some(index) = uncertain {
-        claimed.fill(index, uncertainty_file(&found, &name).as_bytes())?;
     }
     let answer = IdentifyAnswer {
         schema: 1,

@@ -22,7 +22,7 @@ const FEWEST: usize = 64;
 /// What is uncertain, as options.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct UncertainFlags {
-    /// What is uncertain about machine and load (TOML; see `kinetostat tolerance --help-all`): the errors before and
+    /// What is uncertain about machine and load (TOML; see `kinetostat tolerance --help-all`), or a model that `identify` wrote: the errors before and
     /// after compensation come as a band over many machines
     #[arg(long, value_name = "FILE", help_heading = "Tolerances")]
     pub(crate) uncertain: Option<PathBuf>,

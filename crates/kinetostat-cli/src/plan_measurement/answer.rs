@@ -16,6 +16,8 @@ pub(crate) struct PlanAnswer {
     pub(crate) candidates: usize,
     /// Postures that were passed over: they cannot be taken, leave the room or hide a marker.
     pub(crate) passed_over: usize,
+    /// Node on which the loads act; null: the tool.
+    pub(crate) load_on: Option<String>,
     /// Value of the plan beside the best that any plan with as many measurements could have: 1 is the best; null for the worst direction.
     pub(crate) efficiency: Option<f64>,
     /// Variance of the median of random plans, in that of this one.

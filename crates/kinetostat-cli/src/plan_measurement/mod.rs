@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_identification::{
-    Axes, DEVIATION, Observation, Plan, PlanError, PlanTask, PlannedMeasurement, Purpose, Reading,
-    Room, TestLoad, Theory, Unknowns, plan, read_postures,
+    Axes, Body, BodyPoint, DEVIATION, Observation, Plan, PlanError, PlanTask, PlannedMeasurement,
+    Purpose, Reading, Room, TestLoad, Theory, Unknowns, plan, read_postures,
 };
 use kinetostat_model::Model;
 use kinetostat_report::{Plot, PlotLine};
@@ -67,7 +67,10 @@ pub(crate) struct PlanMeasurementArgs {
     /// Direction in which it may pull, base axes; once for each, instead of these three
     #[arg(long, num_args = 3, action = clap::ArgAction::Append, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, value_parser = number, requires = "pull_n", help_heading = "Loads")]
     pub(crate) pull_direction: Vec<f64>,
-    /// Where the load acts, mm, in the tool's frame [default: its origin]
+    /// Node or body of a limb on which the load acts, as NODE or LIMB:NODE [default: the tool]
+    #[arg(long, value_name = "NODE", help_heading = "Loads")]
+    pub(crate) load_on: Option<String>,
+    /// Where the load acts, mm, in the frame of the tool or node [default: its origin]
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, value_parser = number, help_heading = "Loads")]
     pub(crate) load_at: Option<Vec<f64>>,
     /// Marker that is read, mm, in the tool's frame; once for each [default: its origin]
@@ -176,7 +179,7 @@ pub(crate) fn run(args: &PlanMeasurementArgs) -> Answer<()> {
     }
     let shown = Shown {
         text: text::answer_text(&answer),
-        csv: table(&task, &found)?,
+        csv: table(&task, args.load_on.as_deref(), &found)?,
         svg: picture(&answer).svg(),
         failure: None,
     };
@@ -280,9 +283,17 @@ fn postures(found: &Plan) -> Vec<usize> {
 
 /// The loads that can be put on.
 fn loads(args: &PlanMeasurementArgs, model: &Model) -> Answer<Vec<TestLoad>> {
-    let at = match &args.load_at {
-        Some(at) => vector("--load-at", at)? * 1e-3,
-        None => Vector3::zeros(),
+    let at = BodyPoint {
+        on: match &args.load_on {
+            Some(name) => Body::named(&model.mechanism, name).map_err(|reason| {
+                ErrorCode::UnknownName.failure(format!("--load-on '{name}': {reason}"))
+            })?,
+            None => Body::Tool,
+        },
+        at: match &args.load_at {
+            Some(at) => vector("--load-at", at)? * 1e-3,
+            None => Vector3::zeros(),
+        },
     };
     for (option, load) in [("--mass-kg", args.mass_kg), ("--pull-n", args.pull_n)] {
         if let Some(load) = load.filter(|load| *load <= 0.0) {
@@ -420,6 +431,7 @@ fn answer_of(args: &PlanMeasurementArgs, task: &PlanTask<'_>, found: &Plan) -> P
         model_source: args.model.clone(),
         candidates: found.candidates,
         passed_over: found.passed_over,
+        load_on: args.load_on.clone(),
         efficiency: found.efficiency,
         variance_of_random_plans: found.gain,
         left_error_mm: found.left_error.map(|e| 1e3 * e),
@@ -453,7 +465,7 @@ fn picture(answer: &PlanAnswer) -> Plot {
 }
 
 /// The table that `identify` reads: one row for each marker, readings empty.
-fn table(task: &PlanTask<'_>, found: &Plan) -> Answer<Vec<u8>> {
+fn table(task: &PlanTask<'_>, load_on: Option<&str>, found: &Plan) -> Answer<Vec<u8>> {
     let axes = Axes::of(task.model);
     let mut head = vec!["posture".to_owned()];
     head.extend(
@@ -478,6 +490,7 @@ fn table(task: &PlanTask<'_>, found: &Plan) -> Answer<Vec<u8>> {
     ] {
         head.push(name.to_owned());
     }
+    head.extend(load_on.map(|_| "load_on".to_owned()));
     let mut rows = vec![head];
     for (posture, m) in postures(found).into_iter().zip(&found.measurements) {
         for marker in &task.markers {
@@ -488,12 +501,13 @@ fn table(task: &PlanTask<'_>, found: &Plan) -> Answer<Vec<u8>> {
             // Zero has no sign.
             row.extend(m.load.force.iter().map(|f| cell(*f + 0.0)));
             row.extend(
-                (m.load.at * 1e3)
+                (m.load.at.at * 1e3)
                     .iter()
                     .chain((marker * 1e3).iter())
                     .map(|x| cell(*x)),
             );
             row.extend(["", "", "", ""].map(str::to_owned));
+            row.extend(load_on.map(str::to_owned));
             rows.push(row);
         }
     }

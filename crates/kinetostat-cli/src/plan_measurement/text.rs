@@ -80,6 +80,10 @@ pub(crate) fn sheet(a: &PlanAnswer, task: &PlanTask<'_>) -> String {
         "Measurement of {}\n\nDate:                    Name:                    Instrument:\n\nTool and work-object data that the controller applies must be off, or those of the model.\nFor each posture: jog to the axes, let the machine settle, read without the load, put the load\non, read, take it off, read again. Note the load that was measured, not the one that is planned.\n",
         a.model
     );
+    let on = a
+        .load_on
+        .as_ref()
+        .map_or(String::new(), |node| format!(" on {node}"));
     for m in &a.measurements {
         let axes: Vec<String> = m
             .axes
@@ -88,7 +92,7 @@ pub(crate) fn sheet(a: &PlanAnswer, task: &PlanTask<'_>) -> String {
             .collect();
         let _ = write!(
             out,
-            "\n{:>3}  {}\n     force {} N (base axes)   expected about {} mm   tool at {} mm\n",
+            "\n{:>3}  {}\n     force {} N (base axes){on}   expected about {} mm   tool at {} mm\n",
             m.posture,
             axes.join("   "),
             triple(m.force_n, |x| fixed(x, 0)),

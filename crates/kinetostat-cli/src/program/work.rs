@@ -100,7 +100,7 @@ fn work_at(
             load: TestLoad {
                 force: place.wrench.0.fixed_rows::<3>(0).into_owned(),
                 moment: place.wrench.0.fixed_rows::<3>(3).into_owned(),
-                at,
+                at: at.into(),
             },
             branch: None,
             // The tool belongs where it is programmed if all of the machine's own error counts.

@@ -45,9 +45,9 @@ pub(crate) struct ToleranceArgs {
     /// Preset or model file
     #[arg(value_name = "MODEL")]
     pub(crate) model: String,
-    /// What is uncertain (TOML, see below)
+    /// What is uncertain (TOML, see below), or a model that `identify` wrote [default: what the model says]
     #[arg(long, value_name = "FILE")]
-    pub(crate) uncertain: PathBuf,
+    pub(crate) uncertain: Option<PathBuf>,
     /// Place of the tool's tip in base axes, mm; once for each place; home without it
     #[arg(long, num_args = 3, action = clap::ArgAction::Append, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, value_parser = number)]
     pub(crate) at: Vec<f64>,
@@ -97,6 +97,7 @@ const HELP: &str = "\
 Examples:
   kinetostat tolerance orthoglide --uncertain spread.toml --at 0 0 0 \\
       --force 215 -10 -25
+  kinetostat tolerance identified.toml --at 1600 300 900 --force 300 0 -500
   kinetostat tolerance my_robot.toml --uncertain spread.toml --at 1200 0 900 \\
       --at 1400 200 900 --force 300 0 -500 --sobol 1024 --plot spread.svg
 

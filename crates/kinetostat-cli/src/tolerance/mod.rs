@@ -56,7 +56,7 @@ pub(crate) fn run(args: &ToleranceArgs) -> Answer<()> {
         return Err(ErrorCode::Missing.failure("give a place with --at"));
     };
     let study = Study::of(args, &model, &queries, &first.wrench)?;
-    let inputs = path.iter().cloned().chain([args.uncertain.clone()]);
+    let inputs = path.iter().chain(&args.uncertain).cloned();
     let mut outputs = Outputs::new(Existing::forced(args.force_overwrite), inputs.collect());
     let csv = args.csv.as_ref().map(|p| outputs.claim("table", p));
     let csv = csv.transpose()?;
@@ -139,9 +139,16 @@ impl Study {
         queries: &[PlaceQuery],
         wrench: &Wrench,
     ) -> Answer<Self> {
-        let name = args.uncertain.display().to_string();
-        let text = InputFiles::default().settings("uncertainties", &args.uncertain)?;
-        let file = UncertaintyFile::read(&text, &name, model, wrench)?;
+        let file = match &args.uncertain {
+            Some(path) => {
+                let text = InputFiles::default().settings("uncertainties", path)?;
+                UncertaintyFile::read(&text, &path.display().to_string(), model, wrench)?
+            }
+            None if model.document.uncertain.is_empty() => {
+                return Err(ErrorCode::Missing.failure("what is uncertain? Give --uncertain FILE; this model states no uncertainties of its own, as one of `kinetostat identify` does"));
+            }
+            None => UncertaintyFile::read(&model.text, &model.file, model, wrench)?,
+        };
         let quantities = quantities(args);
         let tool = straight_tool(1e-3 * args.tool_length_mm.unwrap_or(0.0));
         let poses: Vec<Pose> = queries.iter().map(|q| q.target).collect();

@@ -97,8 +97,6 @@ fn a_planned_measurement_finds_the_stiffnesses() {
         "read.csv",
         "--out",
         "found.toml",
-        "--uncertain-out",
-        "spread.toml",
         "--json",
         "r.json",
         "--csv",
@@ -127,8 +125,6 @@ fn a_planned_measurement_finds_the_stiffnesses() {
     let words = [
         "tolerance",
         "found.toml",
-        "--uncertain",
-        "spread.toml",
         "--force",
         "300",
         "0",
@@ -220,6 +216,23 @@ fn the_work_of_a_job_decides_postures_and_is_judged() {
     let taught =
         json("plan-measurement heavy_6r --pull-n 800 --count 3 --postures pulls.csv --json");
     assert_eq!(taught["candidates"], 5);
+
+    // A cable at the forearm: joints beyond it are not loaded.
+    let words = "plan-measurement heavy_6r --pull-n 800 --count 3 --candidates 20 --csv n.csv --sheet n.txt --json --load-on";
+    let words: Vec<&str> = words.split(' ').chain(["forearm mass"]).collect();
+    let forearm: serde_json::Value =
+        serde_json::from_str(&run(here, &words).answered().out).expect("JSON");
+    let numbers = forearm["numbers"].as_array().expect("a list").iter();
+    let seen: Vec<bool> = numbers.map(|n| !n["deviation_percent"].is_null()).collect();
+    assert_eq!(seen, [true, true, true, false, false, false]);
+    let table = std::fs::read_to_string(here.join("n.csv")).expect("a table");
+    let filled = table.replacen(",,,,,forearm mass", ",0.1,0.2,-0.9,,forearm mass", 1);
+    assert_ne!(filled, table);
+    std::fs::write(here.join("n.csv"), filled).expect("a table");
+    let found = json("identify heavy_6r --measured n.csv --prior-percent 10 --json");
+    assert_eq!(found["readings"], 3);
+    let sheet = std::fs::read_to_string(here.join("n.txt")).expect("a sheet");
+    assert!(sheet.contains("(base axes) on forearm mass"), "{sheet}");
 
     let found = json(
         "identify heavy_6r --measured pulls.csv --prior-percent 10 --work job.toml --report r.html --pdf r.pdf --json",

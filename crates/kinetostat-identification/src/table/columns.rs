@@ -14,7 +14,9 @@ pub(crate) enum Column {
     Force(usize, f64),
     Moment(usize, f64),
     Mass,
+    LoadOn,
     LoadAt(usize, f64),
+    MarkerOn,
     Marker(usize, f64),
     Displacement(usize, f64),
     Position(usize, f64),
@@ -25,17 +27,29 @@ pub(crate) enum Column {
     TurnDeviation(f64),
 }
 
+impl Column {
+    /// True for a column of words; the others hold numbers.
+    pub fn is_word(self) -> bool {
+        matches!(
+            self,
+            Self::Posture | Self::Note | Self::Branch | Self::LoadOn | Self::MarkerOn
+        )
+    }
+}
+
 /// All columns but those of the axes, with what they hold: for help and documentation.
 pub const COLUMNS: &str = "posture: name of the posture (rows with the same name share its errors)
 A1_deg, A2_deg, ...: axes as the controller shows them, or the model's joints (_deg, _rad, _mm, _m)
-fx_n, fy_n, fz_n: force on the tool, base axes (_n, _kn)
-mx_n_m, my_n_m, mz_n_m: moment on the tool, base axes
-mass_kg: mass that hangs on the tool
-load_x_mm, load_y_mm, load_z_mm: where force and mass act, in the tool's frame (its origin without these)
-marker_x_mm, marker_y_mm, marker_z_mm: the point that is read, in the tool's frame (its origin without these)
+fx_n, fy_n, fz_n: force, base axes (_n, _kn)
+mx_n_m, my_n_m, mz_n_m: moment, base axes
+mass_kg: mass that hangs on the machine
+load_on: node or body of a limb on which the load acts, as NODE or LIMB:NODE (the tool without it)
+load_x_mm, load_y_mm, load_z_mm: where force and mass act, in the frame of the tool or node (its origin without these)
+marker_on: node or body on which the marker is, as load_on
+marker_x_mm, marker_y_mm, marker_z_mm: the point that is read, in the frame of the tool or node (its origin without these)
 dx_mm, dy_mm, dz_mm: displacement of that point by the load, base axes (_m, _mm, _um)
 x_mm, y_mm, z_mm: place of that point, base axes, loaded and, in a row with loads of zero, unloaded
-rx_mrad, ry_mrad, rz_mrad: turn of the tool by the load, base axes (_rad, _mrad, _urad, _deg)
+rx_mrad, ry_mrad, rz_mrad: turn of the tool or node by the load, base axes (_rad, _mrad, _urad, _deg)
 gauge_mm, gauge_x, gauge_y, gauge_z: reading of a dial gauge and the direction in which it counts up, base axes
 sigma_mm: standard deviation of the lengths of this row; sigma_r_mrad: that of the turns
 branch: loading or unloading, of a load that is put on in steps and taken off again
@@ -80,6 +94,8 @@ pub(crate) fn column_of(head: &str, axes: &Axes<'_>) -> Result<Column, NoColumn>
         "note" => return Ok(Column::Note),
         "branch" => return Ok(Column::Branch),
         "mass_kg" => return Ok(Column::Mass),
+        "load_on" => return Ok(Column::LoadOn),
+        "marker_on" => return Ok(Column::MarkerOn),
         "gauge_x" => return Ok(Column::GaugeDirection(0)),
         "gauge_y" => return Ok(Column::GaugeDirection(1)),
         "gauge_z" => return Ok(Column::GaugeDirection(2)),

@@ -8,6 +8,7 @@ use kinetostat::linalg::SingularValues;
 use kinetostat::{Mechanism, PostureRequest};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
+use crate::body::PlacedBody;
 use crate::table::row::MeasuredRow;
 
 /// Frame of an instrument.
@@ -65,10 +66,10 @@ pub fn into_base(
             let posture = mechanism
                 .posture(PostureRequest::commands(&row.commands))
                 .ok()?;
-            let tool = posture.target();
+            let body = PlacedBody::of(row.marker.on, &posture, &posture.rest_state());
             Some((
                 row.read.position?,
-                tool.translation.vector + tool.rotation * row.marker,
+                body.pose.translation.vector + body.pose.rotation * row.marker.at,
             ))
         })
         .collect();

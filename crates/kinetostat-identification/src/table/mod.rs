@@ -165,6 +165,7 @@ pub fn observations(
         }
         if let Some(turn) = &row.read.turn {
             readings.extend(Reading::turn(
+                row.marker.on,
                 turn,
                 row.turn_deviation.unwrap_or(TURN_DEVIATION),
             ));

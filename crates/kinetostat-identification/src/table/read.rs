@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::axes::Axes;
+use crate::body::BodyPoint;
 use crate::experiment::TestLoad;
 use crate::table::columns::{Column, NoColumn, column_of};
 use crate::table::row::{MOST_FAULTS, MeasuredRow, Read, TableFault};
@@ -287,107 +288,85 @@ struct Row<'r> {
     comma: bool,
 }
 
-impl Row<'_> {
-    fn read(&self, axes: &Axes<'_>, faults: &mut Vec<TableFault>) -> Option<MeasuredRow> {
-        let mut shown = vec![0.0; axes.names().len()];
-        let mut load = TestLoad::force_at(Vector3::zeros(), Vector3::zeros());
-        let (mut mass, mut marker) = (0.0, Vector3::zeros());
-        let (mut displacement, mut position) = ([None; 3], [None; 3]);
-        let (mut turn, mut gauge, mut direction) = ([None; 3], None, [None; 3]);
-        let (mut deviation, mut turn_deviation) = (None, None);
-        let mut posture = None;
-        let mut unloading = None;
-        for ((column, cell), head) in self.columns.iter().zip(self.cells).zip(self.heads) {
-            let Some(column) = column else { continue };
-            if let Column::Posture = column {
-                posture = Some((*cell).to_owned()).filter(|name| !name.is_empty());
-                if posture.is_none() {
-                    faults.push(TableFault {
-                        line: self.line,
-                        column: Some((*head).to_owned()),
-                        found: None,
-                        message: "the posture has no name: write it in every row (of merged cells of a spreadsheet only the first has it)".to_owned(),
-                    });
-                }
-            }
-            if let Column::Branch = column {
-                unloading = match *cell {
+/// What the cells of a row say, so far.
+#[derive(Default)]
+struct Cells {
+    posture: Option<String>,
+    unloading: Option<bool>,
+    shown: Vec<f64>,
+    force: Vector3<f64>,
+    moment: Vector3<f64>,
+    mass: f64,
+    load_at: BodyPoint,
+    marker: BodyPoint,
+    displacement: [Option<f64>; 3],
+    position: [Option<f64>; 3],
+    turn: [Option<f64>; 3],
+    gauge: Option<f64>,
+    gauge_direction: [Option<f64>; 3],
+    deviation: Option<f64>,
+    turn_deviation: Option<f64>,
+}
+
+impl Cells {
+    /// Takes a cell that holds a word.
+    fn word(&mut self, column: Column, cell: &str, axes: &Axes<'_>) -> Result<(), String> {
+        match column {
+            Column::Posture if cell.is_empty() => return Err("the posture has no name: write it in every row (of merged cells of a spreadsheet only the first has it)".to_owned()),
+            Column::Posture => self.posture = Some(cell.to_owned()),
+            Column::LoadOn if !cell.is_empty() => self.load_at.on = axes.body(cell)?,
+            Column::MarkerOn if !cell.is_empty() => self.marker.on = axes.body(cell)?,
+            Column::Branch => {
+                self.unloading = match cell {
                     "" => None,
                     "loading" => Some(false),
                     "unloading" => Some(true),
-                    other => {
-                        faults.push(TableFault {
-                            line: self.line,
-                            column: Some((*head).to_owned()),
-                            found: Some(other.to_owned()),
-                            message: "write loading or unloading".to_owned(),
-                        });
-                        None
-                    }
+                    _ => return Err("write loading or unloading".to_owned()),
                 };
             }
-            if matches!(column, Column::Posture | Column::Note | Column::Branch) {
-                continue;
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Takes a cell that holds a number.
+    fn number(&mut self, column: Column, number: f64) -> Result<(), String> {
+        match column {
+            Column::Axis(i, unit) => self.shown[i] = number * unit,
+            Column::Force(k, unit) => self.force[k] = number * unit,
+            Column::Moment(k, unit) => self.moment[k] = number * unit,
+            Column::Mass if number < 0.0 => return Err("a mass is not negative".to_owned()),
+            Column::Mass => self.mass = number,
+            Column::LoadAt(k, unit) => self.load_at.at[k] = number * unit,
+            Column::Marker(k, unit) => self.marker.at[k] = number * unit,
+            Column::Displacement(k, unit) => self.displacement[k] = Some(number * unit),
+            Column::Position(k, unit) => self.position[k] = Some(number * unit),
+            Column::Turn(k, unit) => self.turn[k] = Some(number * unit),
+            Column::Gauge(unit) => self.gauge = Some(number * unit),
+            Column::GaugeDirection(k) => self.gauge_direction[k] = Some(number),
+            Column::Deviation(_) | Column::TurnDeviation(_) if number <= 0.0 => {
+                return Err("a standard deviation is above zero".to_owned());
             }
-            // What was not read may stay empty; a load that is not there is zero.
-            if cell.is_empty() && !matches!(column, Column::Axis(..)) {
-                continue;
-            }
-            let mut fault = |message: String| {
-                faults.push(TableFault {
-                    line: self.line,
-                    column: Some((*head).to_owned()),
-                    found: Some((*cell).to_owned()),
-                    message,
-                });
-            };
-            // A reading with a fault stays one, so that it is not taken for missing.
-            let number = self.number(cell).unwrap_or(f64::NAN);
-            if number.is_nan() {
-                fault(match cell.is_empty() {
-                    true => "the cell is empty; a number is needed".to_owned(),
-                    false => "this is no number".to_owned(),
-                });
-            }
-            match *column {
-                Column::Posture | Column::Note | Column::Branch => {}
-                Column::Axis(i, unit) => shown[i] = number * unit,
-                Column::Force(k, unit) => load.force[k] = number * unit,
-                Column::Moment(k, unit) => load.moment[k] = number * unit,
-                Column::Mass if number < 0.0 => fault("a mass is not negative".to_owned()),
-                Column::Mass => mass = number,
-                Column::LoadAt(k, unit) => load.at[k] = number * unit,
-                Column::Marker(k, unit) => marker[k] = number * unit,
-                Column::Displacement(k, unit) => displacement[k] = Some(number * unit),
-                Column::Position(k, unit) => position[k] = Some(number * unit),
-                Column::Turn(k, unit) => turn[k] = Some(number * unit),
-                Column::Gauge(unit) => gauge = Some(number * unit),
-                Column::GaugeDirection(k) => direction[k] = Some(number),
-                Column::Deviation(_) | Column::TurnDeviation(_) if number <= 0.0 => {
-                    fault("a standard deviation is above zero".to_owned());
-                }
-                Column::Deviation(unit) => deviation = Some(number * unit),
-                Column::TurnDeviation(unit) => turn_deviation = Some(number * unit),
+            Column::Deviation(unit) => self.deviation = Some(number * unit),
+            Column::TurnDeviation(unit) => self.turn_deviation = Some(number * unit),
+            Column::Posture | Column::Note | Column::Branch | Column::LoadOn | Column::MarkerOn => {
             }
         }
-        let mut fault = |message: String| {
-            faults.push(TableFault {
-                line: self.line,
-                column: None,
-                found: None,
-                message,
-            });
-        };
+        Ok(())
+    }
+
+    /// What was read; faults are those of the row as a whole.
+    fn read(&self, fault: &mut impl FnMut(String)) -> Read {
         // What no load and no machine does comes from another unit, or from a cell that is something else.
         let mut within = |parts: &[Option<f64>], most: f64, what: &str| {
             if parts.iter().flatten().any(|x| x.abs() > most) {
                 fault(format!("{what}: look at its unit"));
             }
         };
-        within(&displacement, 1.0, "a displacement of more than 1 m");
-        within(&position, 1e3, "a place more than 1 km away");
-        within(&turn, 1.0, "a turn of more than 1 rad");
-        within(&[gauge], 1.0, "a gauge that reads more than 1 m");
+        within(&self.displacement, 1.0, "a displacement of more than 1 m");
+        within(&self.position, 1e3, "a place more than 1 km away");
+        within(&self.turn, 1.0, "a turn of more than 1 rad");
+        within(&[self.gauge], 1.0, "a gauge that reads more than 1 m");
         let mut vector = |parts: [Option<f64>; 3], names: &str| match parts {
             [Some(x), Some(y), Some(z)] => Some(Vector3::new(x, y, z)),
             [None, None, None] => None,
@@ -398,38 +377,93 @@ impl Row<'_> {
                 None
             }
         };
-        let read = Read {
-            displacement: vector(displacement, "dx, dy and dz"),
-            position: vector(position, "x, y and z"),
-            turn: vector(turn, "rx, ry and rz"),
-            gauge: gauge.zip(vector(direction, "gauge_x, gauge_y and gauge_z")),
+        let (displacement, position) = (
+            vector(self.displacement, "dx, dy and dz"),
+            vector(self.position, "x, y and z"),
+        );
+        let turn = vector(self.turn, "rx, ry and rz");
+        let direction = vector(self.gauge_direction, "gauge_x, gauge_y and gauge_z");
+        let gauge = self.gauge.zip(direction).and_then(|(value, direction)| {
+            let unit = direction.try_normalize(1e-12);
+            if unit.is_none() {
+                fault("the direction of the gauge has no length".to_owned());
+            }
+            Some((value, unit?))
+        });
+        Read {
+            displacement,
+            position,
+            turn,
+            gauge,
+        }
+    }
+}
+
+impl Row<'_> {
+    fn read(&self, axes: &Axes<'_>, faults: &mut Vec<TableFault>) -> Option<MeasuredRow> {
+        let mut own = Cells {
+            shown: vec![0.0; axes.names().len()],
+            ..Cells::default()
         };
-        let read = Read {
-            gauge: read.gauge.and_then(|(value, direction)| {
-                let unit = direction.try_normalize(1e-12);
-                if unit.is_none() {
-                    fault("the direction of the gauge has no length".to_owned());
+        for ((column, cell), head) in self.columns.iter().zip(self.cells).zip(self.heads) {
+            let Some(column) = *column else { continue };
+            let mut check = |taken: Result<(), String>| {
+                if let Err(message) = taken {
+                    faults.push(TableFault {
+                        line: self.line,
+                        column: Some((*head).to_owned()),
+                        found: Some((*cell).to_owned()).filter(|c| !c.is_empty()),
+                        message,
+                    });
                 }
-                Some((value, unit?))
-            }),
-            ..read
+            };
+            if column.is_word() {
+                check(own.word(column, cell, axes));
+                continue;
+            }
+            // What was not read may stay empty; a load that is not there is zero.
+            if cell.is_empty() && !matches!(column, Column::Axis(..)) {
+                continue;
+            }
+            let number = self.number(cell);
+            if number.is_none() {
+                check(Err(match cell.is_empty() {
+                    true => "the cell is empty; a number is needed".to_owned(),
+                    false => "this is no number".to_owned(),
+                }));
+            }
+            // A reading with a fault stays one, so that it is not taken for missing.
+            check(own.number(column, number.unwrap_or(f64::NAN)));
+        }
+        let mut fault = |message: String| {
+            faults.push(TableFault {
+                line: self.line,
+                column: None,
+                found: None,
+                message,
+            });
         };
-        let commands = axes.commands(&shown)?;
+        let read = own.read(&mut fault);
+        let commands = axes.commands(&own.shown)?;
         for message in axes.beyond_limits(&commands) {
             fault(message);
         }
         Some(MeasuredRow {
             line: self.line,
-            posture: posture.unwrap_or_else(|| self.posture_of_cells()),
-            shown,
+            posture: own.posture.unwrap_or_else(|| self.posture_of_cells()),
+            shown: own.shown,
             commands,
-            load,
-            mass,
-            marker,
+            load: TestLoad {
+                force: own.force,
+                moment: own.moment,
+                at: own.load_at,
+            },
+            mass: own.mass,
+            marker: own.marker,
             read,
-            deviation,
-            turn_deviation,
-            unloading,
+            deviation: own.deviation,
+            turn_deviation: own.turn_deviation,
+            unloading: own.unloading,
         })
     }
 

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::body::BodyPoint;
 use crate::experiment::TestLoad;
 
 /// A fault of a table.
@@ -20,14 +21,14 @@ pub struct TableFault {
 /// Most faults that are listed; a file of another kind has one in every cell.
 pub const MOST_FAULTS: usize = 50;
 
-/// What a row says of the tool.
+/// What a row says of its marker.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Read {
     /// Displacement by the load, m, base axes.
     pub displacement: Option<Vector3<f64>>,
     /// Place of the marker, m, base axes.
     pub position: Option<Vector3<f64>>,
-    /// Turn by the load as a rotation vector, rad, base axes.
+    /// Turn of the marker's body by the load as a rotation vector, rad, base axes.
     pub turn: Option<Vector3<f64>>,
     /// Displacement along the stylus of a gauge, m, and the direction in which it counts up (base axes).
     pub gauge: Option<(f64, Vector3<f64>)>,
@@ -44,12 +45,12 @@ pub struct MeasuredRow {
     pub shown: Vec<f64>,
     /// Commands of the actuators, m or rad.
     pub commands: Vec<f64>,
-    /// Force and moment on the tool, base axes, and where the force acts.
+    /// Force and moment, base axes, and where they act.
     pub load: TestLoad,
     /// Mass that hangs at the same point, kg.
     pub mass: f64,
-    /// Place of the marker in the tool's frame, m.
-    pub marker: Vector3<f64>,
+    /// The marker.
+    pub marker: BodyPoint,
     /// What was read.
     pub read: Read,
     /// Standard deviation of lengths, m.

@@ -2,9 +2,9 @@
 
 use kinetostat::{Mechanism, Pose, PostureRequest};
 use kinetostat_identification::{
-    Axes, Branch, Finding, Fit, FitOptions, Knowledge, Observation, Reading, ReadingOf, Start,
-    TestLoad, Theory, Unknowns, identification, identified_model, identify, observations, predict,
-    read_table,
+    Axes, Body, Branch, Finding, Fit, FitOptions, Knowledge, Observation, Reading, ReadingOf,
+    Start, TestLoad, Theory, Unknowns, identification, identified_model, identify, observations,
+    predict, read_table,
 };
 use kinetostat_model::Model;
 use nalgebra::{Vector3, vector};
@@ -164,7 +164,7 @@ fn turns_and_displacements_are_weighed_by_their_deviations() -> Outcome {
             let load = TestLoad::force_at(TOOL, random.vector(2000.0));
             let mut readings: Vec<Reading> =
                 Reading::displacement(TOOL, &Vector3::zeros(), 30e-6).into();
-            readings.extend(Reading::turn(&Vector3::zeros(), 20e-6));
+            readings.extend(Reading::turn(Body::Tool, &Vector3::zeros(), 20e-6));
             asked(i, commands, load, readings)
         })
         .collect();
@@ -369,7 +369,7 @@ fn derivatives_are_those_of_the_prediction() -> Outcome {
     observations[1].load.moment = vector![300.0, -200.0, 100.0];
     observations[2].readings.push(Reading {
         of: ReadingOf::About(Vector3::y()),
-        marker: Vector3::zeros(),
+        marker: Vector3::zeros().into(),
         value: 0.0,
         deviation: 1e-5,
     });
@@ -468,6 +468,21 @@ fn the_identified_model_has_the_numbers_and_their_source() -> Outcome {
         .collect();
     let stiffnesses: Vec<f64> = again.nominal().iter().map(|c| 1.0 / c).collect();
     assert!(worst(&stiffnesses, &numbers) < 1e-8, "nine digits");
+    // Standard deviations and correlations stand in the model, once, however often it is identified.
+    let again = identified_model(&identified, &found, "more.csv")?;
+    for (model, source) in [(&identified, "pulls.csv"), (&again, "more.csv")] {
+        let document = &model.document;
+        let deviations: Vec<f64> = document.uncertain.iter().filter_map(|u| u.normal).collect();
+        let wanted = found.numbers.iter().filter_map(|n| n.deviation);
+        assert!(worst(&deviations, &wanted.collect::<Vec<_>>()) < 1e-12);
+        assert_eq!(document.correlation.len(), 15, "{}", model.text);
+        let first = &document.correlation[0];
+        let of = |k: usize| found.covariance[k][k].sqrt();
+        let coefficient = found.covariance[1][0] / (of(0) * of(1));
+        assert_eq!(first.between[1], found.numbers[1].number);
+        assert!((first.coefficient - coefficient).abs() < 1e-6);
+        assert!(model.text.contains(&format!("identified from {source}")));
+    }
     Ok(())
 }
 
@@ -617,6 +632,13 @@ fn exchanged_markers_are_named() -> Outcome {
         observations[7].readings[k].value = values[k];
     }
     assert_eq!(exchanged(&observations)?, ["3"]);
+    // As a table has them: both markers read in one equilibrium.
+    let together = observations.chunks(2).map(|pair| {
+        let mut both = pair[0].clone();
+        both.readings.extend(pair[1].readings.iter().copied());
+        both
+    });
+    assert_eq!(exchanged(&together.collect::<Vec<_>>())?, ["3"]);
     Ok(())
 }
 

@@ -1,7 +1,7 @@
 //! Link matrices of arm H6: what any experiment can tell of them.
 
 use kinetostat_identification::{
-    Identifiability, Observation, PostureRows, Reading, TestLoad, Theory, Unknowns, predict,
+    Body, Identifiability, Observation, PostureRows, Reading, TestLoad, Theory, Unknowns, predict,
 };
 use kinetostat_model::Model;
 use nalgebra::{DVector, Matrix6, Vector3, vector};
@@ -76,7 +76,7 @@ fn experiment(
         }
         let mut readings: Vec<Reading> = Reading::displacement(at, &Vector3::zeros(), 20e-6).into();
         if full_pose {
-            readings.extend(Reading::turn(&Vector3::zeros(), 20e-6));
+            readings.extend(Reading::turn(Body::Tool, &Vector3::zeros(), 20e-6));
         }
         asked(i, commands, load, readings)
     };

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use kinetostat::{Pose, PostureRequest};
 use kinetostat_identification::{
-    FitOptions, Observation, PlanTask, Purpose, Reading, Room, Start, TestLoad, Theory, Unknowns,
-    identify, least_squares, plan, predict,
+    Body, BodyPoint, FitOptions, Observation, PlanTask, Purpose, Reading, Room, Start, TestLoad,
+    Theory, Unknowns, identify, least_squares, plan, predict,
 };
 use kinetostat_model::Model;
 use nalgebra::{DMatrix, DVector, Rotation3, Translation3, UnitQuaternion, Vector3, vector};
@@ -84,11 +84,11 @@ fn legs_of_a_hexapod_are_found_from_its_platform() -> Outcome {
         let load = TestLoad {
             force: random.vector(500.0),
             moment: random.vector(150.0),
-            at: Vector3::zeros(),
+            at: BodyPoint::default(),
         };
         let mut readings: Vec<Reading> =
             Reading::displacement(Vector3::zeros(), &Vector3::zeros(), 4e-6).into();
-        readings.extend(Reading::turn(&Vector3::zeros(), 6e-6));
+        readings.extend(Reading::turn(Body::Tool, &Vector3::zeros(), 6e-6));
         observations.push(asked(i, commands, load, readings));
     }
     let unknowns = Unknowns::matching(&model, &["joints"])?;

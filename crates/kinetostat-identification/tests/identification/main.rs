@@ -1,7 +1,9 @@
 //! Tests of the identification against the reference values.
 
 mod active_set;
+mod bodies;
 mod candidates;
+mod compensator;
 mod cone;
 mod design;
 mod design_refusals;

@@ -85,7 +85,7 @@ fn positions_are_compared_with_those_without_a_load() -> Outcome {
     // 10 um of the reading, 10 and 30 um of the two unloaded ones.
     let deviation = 1e-5 * (1.0_f64 + (1.0 + 9.0) / 4.0).sqrt();
     assert!((found[0].readings[0].deviation - deviation).abs() < 1e-15);
-    assert_eq!(found[0].readings[0].marker, vector![0.05, 0.0, 0.0]);
+    assert_eq!(found[0].readings[0].marker.at, vector![0.05, 0.0, 0.0]);
     // For the geometry they are read as they are, with and without the load.
     let found = places(&rows, &GRAVITY).map_err(|f| anyhow::anyhow!("{f:?}"))?;
     let readings = found.iter().flat_map(|o| &o.readings);

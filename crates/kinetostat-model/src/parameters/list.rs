@@ -84,8 +84,10 @@ fn is_matrix(key: &str) -> bool {
 pub(crate) fn walk(document: &mut Document, visit: &mut dyn Visit) {
     let Document {
         schema: _,
-        // Damping has no effect in statics.
+        // Damping has no effect in statics, and what is uncertain none on the machine as drawn.
         damping: _,
+        uncertain: _,
+        correlation: _,
         mechanism,
         workspace,
         platform,

@@ -10,6 +10,7 @@ use crate::schema::element::Element;
 use crate::schema::joint::DampingTable;
 use crate::schema::load::{LoadTable, PlatformLoadTable};
 use crate::schema::placement::{Axis, Placement};
+use crate::schema::uncertain::{CorrelationTable, UncertainTable};
 
 /// The version of the format that this crate reads and writes.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -58,6 +59,14 @@ pub struct Document {
     pub controller: Option<ControllerTable>,
     /// Damping of vibrations, unless joints and springs have dampers of their own.
     pub damping: Option<DampingTable>,
+    /// How far numbers may be off, as identified from measurements or stated: `tolerance` and `compensate` tell what follows.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1000))]
+    pub uncertain: Vec<UncertainTable>,
+    /// Uncertain numbers that scatter together.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 100_000))]
+    pub correlation: Vec<CorrelationTable>,
 }
 
 /// Name, origin and gravity of the machine.

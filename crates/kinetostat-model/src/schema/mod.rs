@@ -10,6 +10,7 @@ mod element;
 mod joint;
 pub(crate) mod load;
 mod placement;
+mod uncertain;
 
 pub use document::{
     CarriesWord, ChainTable, ControllerAxisTable, ControllerCoupling, ControllerTable,
@@ -31,3 +32,4 @@ pub use load::{
     PlatformLoadTable, PlatformPoint, PlatformWrench, SpringLoad, WrenchAxes, WrenchLoad,
 };
 pub use placement::{Axis, AxisName, Placement};
+pub use uncertain::{CorrelationTable, UncertainTable};

@@ -1,4 +1,4 @@
-//! The file of uncertainties: TOML, refused by name and line.
+//! The file of uncertainties, or a model file that states its own: TOML, refused by name and line.
 
 mod rows;
 mod written;
@@ -63,7 +63,7 @@ impl UncertaintyFile {
             file,
             problems: Vec::new(),
         };
-        let written: Written = match toml::from_str(text) {
+        let written: Written = match Written::read(text) {
             Ok(written) => written,
             Err(error) => {
                 let span = error.span().unwrap_or(0..0);

@@ -5,16 +5,41 @@ use std::ops::Range;
 use kinetostat::Wrench;
 use kinetostat_model::{Problem, Severity};
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use serde_spanned::Spanned;
 
+/// Tables of uncertainties, alone or among those of a model file.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(super) struct Written {
     pub(super) schema: Spanned<u32>,
     #[serde(default)]
     pub(super) uncertain: Vec<Spanned<Row>>,
     #[serde(default)]
     pub(super) correlation: Vec<Spanned<Pair>>,
+    /// Only a model file has it.
+    pub(super) mechanism: Option<IgnoredAny>,
+}
+
+/// Everything that a file of uncertainties alone may say.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Alone {
+    #[serde(rename = "schema")]
+    _schema: IgnoredAny,
+    #[serde(rename = "uncertain")]
+    _uncertain: Option<IgnoredAny>,
+    #[serde(rename = "correlation")]
+    _correlation: Option<IgnoredAny>,
+}
+
+impl Written {
+    pub(super) fn read(text: &str) -> Result<Self, toml::de::Error> {
+        let written: Self = toml::from_str(text)?;
+        if written.mechanism.is_none() {
+            toml::from_str::<Alone>(text)?;
+        }
+        Ok(written)
+    }
 }
 
 #[derive(Clone, Deserialize)]
