@@ -199,8 +199,9 @@ def compensate(
         How far the chords of arcs may leave them, micrometres [default: 0.4, in a compensated
         program at most 0.8 of the path's default tolerance]
     uncertain : path
-        What is uncertain about machine and load (TOML; see `kinetostat tolerance --help-all`): the
-        errors before and after compensation come as a band over many machines
+        What is uncertain about machine and load (TOML; see `kinetostat tolerance --help-all`), or a
+        model that `identify` wrote: the errors before and after compensation come as a band over
+        many machines
     machines : int
         Number of machines drawn for the band, rounded up to a multiple of 16 [default: 1024]
     limit : str | float | Sequence[str | float]

@@ -29,7 +29,6 @@ def identify(
     small_loads: bool = False,
     work: _Path | None = None,
     out: _Path | None = None,
-    uncertain_out: _Path | None = None,
     report: _Path | None = None,
     pdf: _Path | None = None,
     csv: _Path | None = None,
@@ -71,10 +70,7 @@ def identify(
     work : path
         Job of the work that the machine is for: what is left along its program before and after
     out : path
-        Model file with the identified numbers
-    uncertain_out : path
-        Their standard deviations and correlations, for `tolerance --uncertain` and `compensate
-        --uncertain`
+        Model file with the identified numbers, their standard deviations and correlations
     report : path
         The report with pictures, as one HTML file
     pdf : path
@@ -119,7 +115,6 @@ def identify(
         ("--small-loads", small_loads),
         ("--work", work),
         ("--out", out),
-        ("--uncertain-out", uncertain_out),
         ("--report", report),
         ("--pdf", pdf),
         ("--csv", csv),

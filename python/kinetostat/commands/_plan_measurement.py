@@ -23,6 +23,7 @@ def plan_measurement(
     mass_kg: float | None = None,
     pull_n: float | None = None,
     pull_direction: Sequence[float] | None = None,
+    load_on: str | float | None = None,
     load_at: Sequence[float] | None = None,
     marker: Sequence[float] | None = None,
     sigma_mm: float | None = None,
@@ -63,8 +64,10 @@ def plan_measurement(
         Force of a string or cylinder, N, which pulls along x, along y and down
     pull_direction : Sequence[float]
         Direction in which it may pull, base axes; once for each, instead of these three
+    load_on : str | float
+        Node or body of a limb on which the load acts, as NODE or LIMB:NODE [default: the tool]
     load_at : Sequence[float]
-        Where the load acts, mm, in the tool's frame [default: its origin]
+        Where the load acts, mm, in the frame of the tool or node [default: its origin]
     marker : Sequence[float]
         Marker that is read, mm, in the tool's frame; once for each [default: its origin]
     sigma_mm : float
@@ -122,6 +125,7 @@ def plan_measurement(
         ("--mass-kg", mass_kg),
         ("--pull-n", pull_n),
         ("--pull-direction", pull_direction),
+        ("--load-on", load_on),
         ("--load-at", load_at),
         ("--marker", marker),
         ("--sigma-mm", sigma_mm),

@@ -45,7 +45,8 @@ def tolerance(
     model : path | Machine
         Preset or model file
     uncertain : path
-        What is uncertain (TOML, see below)
+        What is uncertain (TOML, see below), or a model that `identify` wrote [default: what the
+        model says]
     at : Sequence[float]
         Place of the tool's tip in base axes, mm; once for each place; home without it
     rotation : str | float
