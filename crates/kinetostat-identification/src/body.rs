@@ -2,10 +2,8 @@
 
 use kinetostat::machine::{LinearisedMachine, MachineMotion, MachineResidual, MechanismState};
 use kinetostat::model::Kinematics;
-use kinetostat::{Load, Mechanism, Pose, Posture, Wrench};
+use kinetostat::{Mechanism, Pose, Posture, Wrench};
 use nalgebra::{Matrix6xX, Vector3, Vector6};
-
-use crate::experiment::TestLoad;
 
 /// A body that carries a load or a marker.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -192,42 +190,5 @@ impl PlacedBody {
             }
         }
         tangent.removing(&push)
-    }
-}
-
-impl TestLoad {
-    /// The machine under this load on one of its nodes; one on the tool is the wrench of an equilibrium.
-    pub(crate) fn on_nodes(&self, mechanism: Mechanism) -> kinetostat::Result<Mechanism> {
-        let Body::Node { limb, node } = self.at.on else {
-            return Ok(mechanism);
-        };
-        let name = mechanism.limbs()[limb].name.clone();
-        let force = Load::point_force(node, self.at.at, self.force);
-        let moment = Load::dead(node, Wrench::new(Vector3::zeros(), self.moment));
-        mechanism.with_load(&name, force)?.with_load(&name, moment)
-    }
-
-    /// The wrench of an equilibrium under this load: zero for one on a node.
-    pub(crate) fn on_tool(&self) -> Wrench {
-        match self.at.on {
-            Body::Tool => Wrench::new(self.force, self.moment),
-            Body::Node { .. } => Wrench::zero(),
-        }
-    }
-
-    /// Where the tool's frame is put for this load: at the point where it acts on the tool.
-    pub(crate) fn tool_at(&self) -> Vector3<f64> {
-        match self.at.on {
-            Body::Tool => self.at.at,
-            Body::Node { .. } => Vector3::zeros(),
-        }
-    }
-
-    /// From the origin of a body's frame, as it is under this load, to a place in its own frame.
-    pub(crate) fn arm_to(&self, on: Body, place: Vector3<f64>) -> Vector3<f64> {
-        match on {
-            Body::Tool => place - self.tool_at(),
-            Body::Node { .. } => place,
-        }
     }
 }

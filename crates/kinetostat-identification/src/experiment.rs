@@ -1,8 +1,10 @@
 //! What was done and read: a posture, a load, and displacements or places of points of the tool or of other links.
 
+use kinetostat::{Load, Mechanism, Wrench};
 use nalgebra::Vector3;
 
 use crate::body::{Body, BodyPoint};
+use crate::error::IdentificationError;
 
 /// A force and a moment that keep their direction while the body on which they act moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,6 +75,41 @@ impl TestLoad {
             at: at.into(),
         }
     }
+
+    /// The machine under this load on one of its nodes; one on the tool is the wrench of an equilibrium.
+    pub(crate) fn on_nodes(&self, mechanism: Mechanism) -> kinetostat::Result<Mechanism> {
+        let Body::Node { limb, node } = self.at.on else {
+            return Ok(mechanism);
+        };
+        let name = mechanism.limbs()[limb].name.clone();
+        let force = Load::point_force(node, self.at.at, self.force);
+        let moment = Load::dead(node, Wrench::new(Vector3::zeros(), self.moment));
+        mechanism.with_load(&name, force)?.with_load(&name, moment)
+    }
+
+    /// The wrench of an equilibrium under this load: zero for one on a node.
+    pub(crate) fn on_tool(&self) -> Wrench {
+        match self.at.on {
+            Body::Tool => Wrench::new(self.force, self.moment),
+            Body::Node { .. } => Wrench::zero(),
+        }
+    }
+
+    /// Where the tool's frame is put for this load: at the point where it acts on the tool.
+    pub(crate) fn tool_at(&self) -> Vector3<f64> {
+        match self.at.on {
+            Body::Tool => self.at.at,
+            Body::Node { .. } => Vector3::zeros(),
+        }
+    }
+
+    /// From the origin of a body's frame, as it is under this load, to a place in its own frame.
+    pub(crate) fn arm_to(&self, on: Body, place: Vector3<f64>) -> Vector3<f64> {
+        match on {
+            Body::Tool => place - self.tool_at(),
+            Body::Node { .. } => place,
+        }
+    }
 }
 
 impl Reading {
@@ -120,6 +157,23 @@ impl Reading {
             value: turn[k],
             deviation,
         })
+    }
+}
+
+impl Observation {
+    /// A motion that nothing holds lies along a load or a reading.
+    pub(crate) fn free(&self) -> IdentificationError {
+        IdentificationError::Free {
+            posture: self.posture.clone(),
+        }
+    }
+
+    /// The machine refuses this posture.
+    pub(crate) fn refused(&self, reason: kinetostat::Error) -> IdentificationError {
+        IdentificationError::Posture {
+            posture: self.posture.clone(),
+            reason,
+        }
     }
 }
 

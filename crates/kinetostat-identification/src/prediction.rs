@@ -307,7 +307,7 @@ impl Machine<'_> {
 
     /// The body of every reading, in the equilibrium under the load of an observation.
     fn reached(&self, observation: &Observation) -> Result<Vec<ReadBody>, IdentificationError> {
-        let machine = |reason| refused(observation, reason);
+        let machine = |reason| observation.refused(reason);
         let posture = posture_of(&self.mechanism, observation)?;
         let at = posture
             .deflected_by(&observation.load.on_tool())
@@ -344,7 +344,7 @@ impl Machine<'_> {
                 }
             };
             let motion = tangent.removing(&residual);
-            let motion = motion.ok_or_else(|| free(observation))?;
+            let motion = motion.ok_or_else(|| observation.free())?;
             for (own, body) in read.iter_mut().zip(&bodies) {
                 own.motions[column] += body.twist(&motion);
             }
@@ -358,7 +358,7 @@ fn posture_of(
     mechanism: &Mechanism,
     observation: &Observation,
 ) -> Result<Posture, IdentificationError> {
-    let machine = |reason| refused(observation, reason);
+    let machine = |reason| observation.refused(reason);
     let loaded = observation
         .load
         .on_nodes(mechanism.clone())
@@ -423,17 +423,4 @@ fn rate_of_rotation_vector(turn: &Vector3<f64>) -> Matrix3<f64> {
         false => angle.powi(-2) - (1.0 + angle.cos()) / (2.0 * angle * angle.sin()),
     };
     Matrix3::identity() - cross * 0.5 + cross * cross * square
-}
-
-pub(crate) fn free(observation: &Observation) -> IdentificationError {
-    IdentificationError::Free {
-        posture: observation.posture.clone(),
-    }
-}
-
-pub(crate) fn refused(observation: &Observation, reason: kinetostat::Error) -> IdentificationError {
-    IdentificationError::Posture {
-        posture: observation.posture.clone(),
-        reason,
-    }
 }

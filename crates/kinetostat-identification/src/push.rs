@@ -7,7 +7,6 @@ use nalgebra::Vector3;
 use crate::body::PlacedBody;
 use crate::error::IdentificationError;
 use crate::experiment::{Observation, Reading, ReadingOf, TestLoad};
-use crate::prediction::{free, refused};
 
 /// A machine at rest that is pushed.
 pub(crate) struct Push<'p> {
@@ -29,7 +28,7 @@ impl<'p> Push<'p> {
             observation,
             posture,
             tangent: posture.linearised_at_rest(),
-            zero: no_residual(posture, &rest).map_err(|reason| refused(observation, reason))?,
+            zero: no_residual(posture, &rest).map_err(|reason| observation.refused(reason))?,
             rest,
         })
     }
@@ -41,7 +40,7 @@ impl<'p> Push<'p> {
         wrench: &Wrench,
     ) -> Result<MachineMotion, IdentificationError> {
         let motion = body.motion_under(wrench, &mut self.tangent, &self.zero);
-        motion.ok_or_else(|| free(self.observation))
+        motion.ok_or_else(|| self.observation.free())
     }
 
     /// Motion of the machine under a load.
