@@ -20,8 +20,7 @@ use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::chatter::{ChatterFlags, ChatterSetting};
 use crate::job::cut::along::warnings;
 use crate::job::job_file::JobFile;
-use crate::job::machine::machine_setup;
-use crate::job::of_model::give_of_model;
+use crate::job::of_model::machine_of;
 use crate::job::program::read_program;
 use crate::job::setting::setting;
 use crate::program::aim::Aim;
@@ -51,16 +50,7 @@ pub(crate) fn run(args: &ChatterArgs) -> Answer<()> {
     };
     let mut setting = setting(&files, Some(&job), &flags, &WritingFlags::default())?;
     let model_named = args.model.as_deref();
-    give_of_model(&mut setting, &files, Some(&job), model_named, &flags)?;
-    let frames = setting.robot_frames()?;
-    let (machine, model) = machine_setup(
-        &files,
-        Some(&job),
-        model_named,
-        &flags,
-        frames.as_ref(),
-        &mut setting.inputs,
-    )?;
+    let (machine, model) = machine_of(&mut setting, &files, Some(&job), model_named, &flags)?;
     let asked = ChatterFlags {
         modes_up_to_hz: args.modes_up_to_hz,
         every_mm: args.every_mm,

@@ -28,8 +28,7 @@ use crate::job::file_endings::refuse_other_endings;
 use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
 use crate::job::limits::{OF_CORRECTIONS, refuse_limits_but};
-use crate::job::machine::machine_setup;
-use crate::job::of_model::give_of_model;
+use crate::job::of_model::machine_of;
 use crate::job::setting::{Setting, program_path, setting};
 use crate::job::target_word::RobotWord;
 use crate::job::turn_arguments::FreeTurnWord;
@@ -211,17 +210,7 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     }
     refuse_lines_beyond(job, &setting)?;
     let model_named = args.run.model.as_deref();
-    give_of_model(&mut setting, files, job, model_named, flags)?;
-    let frames = setting.robot_frames()?;
-    let (mut machine, model) = machine_setup(
-        files,
-        job,
-        model_named,
-        flags,
-        frames.as_ref(),
-        &mut setting.inputs,
-    )?;
-    setting.turned_by(machine.rotary.clone());
+    let (mut machine, model) = machine_of(&mut setting, files, job, model_named, flags)?;
     // A program that cannot be read is reported before outputs are looked at.
     program::read_program(&setting)?;
     let (mut turn, mut findings) = (None, Vec::new());

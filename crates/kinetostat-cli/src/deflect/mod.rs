@@ -25,8 +25,8 @@ use crate::job::arguments::WritingFlags;
 use crate::job::feature_lines::refuse_lines_beyond;
 use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
-use crate::job::machine::{MachineSetup, machine_setup};
-use crate::job::of_model::give_of_model;
+use crate::job::machine::MachineSetup;
+use crate::job::of_model::machine_of;
 use crate::job::output_paths::{OutputPaths, refuse_unused};
 use crate::job::setting::{Setting, program_path, setting};
 use crate::job::turn_arguments::FreeTurnWord;
@@ -126,17 +126,7 @@ fn run_along(
     chosen.json = args.json.clone().filter(|p| p != Path::new("-"));
     refuse_unused(&args.program, &chosen)?;
     let existing = Existing::forced(args.program.force_overwrite);
-    give_of_model(&mut setting, files, job, named, &args.program)?;
-    let frames = setting.robot_frames()?;
-    let (machine, model) = machine_setup(
-        files,
-        job,
-        named,
-        &args.program,
-        frames.as_ref(),
-        &mut setting.inputs,
-    )?;
-    setting.turned_by(machine.rotary.clone());
+    let (machine, model) = machine_of(&mut setting, files, job, named, &args.program)?;
     if in_parts {
         chosen.program = None;
         let whole = only_as_a_whole(&setting, &machine, &chosen);

@@ -23,8 +23,7 @@ use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::job_file::JobFile;
-use crate::job::machine::machine_setup;
-use crate::job::of_model::give_of_model;
+use crate::job::of_model::machine_of;
 use crate::job::place_table::{ObjectiveWord, PlaceTable};
 use crate::job::program::read_program;
 use crate::job::run_warnings;
@@ -72,17 +71,7 @@ pub(crate) fn run(args: &PlacingArgs, given: &Given) -> Answer<()> {
     }
     let question = question(job, args)?;
     let mut setting = setting(&files, job, &args.program, &WritingFlags::default())?;
-    give_of_model(&mut setting, &files, job, named, &args.program)?;
-    let frames = setting.robot_frames()?;
-    let (machine, model) = machine_setup(
-        &files,
-        job,
-        named,
-        &args.program,
-        frames.as_ref(),
-        &mut setting.inputs,
-    )?;
-    setting.turned_by(machine.rotary.clone());
+    let (machine, model) = machine_of(&mut setting, &files, job, named, &args.program)?;
     let read = read_program(&setting)?;
     refuse_unconvertible(&files, job, &args.program, &model, &machine)?;
     let states_orientation = read.path().moves.iter().any(|m| m.tool_turn.is_some());

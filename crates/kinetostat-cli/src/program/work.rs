@@ -12,8 +12,8 @@ use nalgebra::Vector3;
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::job_file::JobFile;
-use crate::job::machine::{MachineSetup, machine_setup};
-use crate::job::of_model::give_of_model;
+use crate::job::machine::MachineSetup;
+use crate::job::of_model::machine_of;
 use crate::job::program::read_program;
 use crate::job::setting::setting;
 use crate::machine::units::unit_of;
@@ -39,17 +39,7 @@ pub(crate) fn work_of_job(job: &Path, named: &str, model: &Model) -> Answer<Vec<
     let job = JobFile::read(&files, job)?;
     let flags = ProgramArgs::default();
     let mut setting = setting(&files, Some(&job), &flags, &WritingFlags::default())?;
-    give_of_model(&mut setting, &files, Some(&job), Some(named), &flags)?;
-    let frames = setting.robot_frames()?;
-    let (machine, _) = machine_setup(
-        &files,
-        Some(&job),
-        Some(named),
-        &flags,
-        frames.as_ref(),
-        &mut setting.inputs,
-    )?;
-    setting.turned_by(machine.rotary.clone());
+    let (machine, _) = machine_of(&mut setting, &files, Some(&job), Some(named), &flags)?;
     let read = read_program(&setting)?;
     let progress = Progress::new();
     let forces = forces_of(&machine, &setting, read.path(), &progress)?;
