@@ -11,6 +11,7 @@ mod long;
 mod programs;
 mod python;
 mod test;
+mod viewer;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -26,6 +27,8 @@ Tasks of the project
   cargo xtask test --quick      format, lints, tests of all crates but the core and the command line
   cargo xtask test --python     the Python package alone
   cargo xtask wheel             the Python package as it is handed out, in target/python/dist
+  cargo xtask viewer            the page of `kinetostat view` from its sources; --check compares it with the
+                                one in the repository, and tries it in Chromium; needs Node
   cargo xtask book              the book as pages in book/book; with --open it is shown
   cargo xtask figures           every number that the issues ask for, measured now
   cargo xtask figures --json    the same as a list of {name, measured, asked, unit, holds}
@@ -51,6 +54,7 @@ fn main() -> ExitCode {
         ["test"] => test::run(),
         ["test", "--quick"] => test::quick(),
         ["test", "--python"] => python::prepare().and_then(python::check),
+        ["viewer", options @ ..] => viewer::run(options),
         ["book", options @ ..] => book::run(options),
         ["figures", options @ ..] => figures::run(options),
         ["fuzz", options @ ..] => fuzz::run(options),

@@ -51,6 +51,8 @@ mod tolerance;
 mod ui;
 mod verify;
 mod vibration;
+#[cfg(feature = "view")]
+mod view;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -245,6 +247,8 @@ fn run(command: Command, given: &Given) -> Answer<()> {
         Command::Import(args) => import::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),
         Command::Model(args) => model::run(&args),
+        #[cfg(feature = "view")]
+        Command::View(args) => view::run(&args),
         Command::Schema(args) => schema::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Completions(args) => shell::completions(&args, Cli::command()),

@@ -13,6 +13,8 @@ mod symbol;
 mod tests;
 mod view;
 
+pub use parts::{Scene, ShownPose};
+
 use kinetostat::machine::MechanismState;
 use kinetostat::model::Element;
 use kinetostat::{Chain, Limb, Mechanism, Pose, Posture, Wrench};

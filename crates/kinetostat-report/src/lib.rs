@@ -53,7 +53,7 @@ use run::page;
 pub use chart::bars::{Bar, Bars};
 pub use chart::plot::{Plot, PlotLine, PlotMark};
 pub use chart::section::{Cell, Section};
-pub use drawing::{Drawing, Magnified, Moved, Placed, View};
+pub use drawing::{Drawing, Magnified, Moved, Placed, Scene, ShownPose, View};
 pub use paper::document::Document;
 pub use paper::language::Language;
 pub use paper::question::{Paper, VerifiedProgram};

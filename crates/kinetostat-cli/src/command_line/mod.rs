@@ -42,6 +42,8 @@ use crate::shell::{CompletionsArgs, ManArgs};
 use crate::stiffness::arguments::StiffnessArgs;
 use crate::tolerance::arguments::ToleranceArgs;
 use crate::verify::arguments::VerifyArgs;
+#[cfg(feature = "view")]
+use crate::view::ViewArgs;
 
 /// Elastostatics of robots that machine: how far a machine bends along a program, and a program
 /// that cuts where it should.
@@ -93,6 +95,8 @@ pub(crate) enum Command {
     Verify(Box<VerifyArgs>),
     Deflect(Box<DeflectArgs>),
     Stiffness(StiffnessArgs),
+    #[cfg(feature = "view")]
+    View(Box<ViewArgs>),
     Shares(Box<SharesArgs>),
     Modes(Box<ModesArgs>),
     Frf(Box<FrfArgs>),

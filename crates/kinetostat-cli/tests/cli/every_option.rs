@@ -8,7 +8,7 @@ use std::sync::Mutex;
 use crate::common::{MODEL, PROGRAM, contents, run};
 
 /// A line for each command and each of its modes, which answers.
-const LINES: [&str; 40] = [
+const LINES: [&str; 41] = [
     "compensate job.toml",
     "compensate --map map.csv --program part.ngc --out w.ngc",
     "compensate --no-compensation --program part.ngc --out w.ngc",
@@ -40,6 +40,7 @@ const LINES: [&str; 40] = [
     "check job.toml",
     "dialect list",
     "model list",
+    "view orthoglide --export page.html",
     "model show orthoglide",
     "reproduce table-5.1",
     "demo",

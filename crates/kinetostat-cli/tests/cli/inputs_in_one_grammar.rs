@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::common::{MODEL, Said, command, run, workplace};
 
 /// A line for each command with a positional input; `@` stands for the input, and the second word is its option.
-const LINES: [(&str, &str, &str); 28] = [
+const LINES: [(&str, &str, &str); 29] = [
     (
         "compensate @ --out w.ngc --force-overwrite",
         "--job",
@@ -93,6 +93,11 @@ const LINES: [(&str, &str, &str); 28] = [
     ("check @", "--job", "job.toml"),
     ("check @", "--model", "orthoglide.toml"),
     ("model draw @", "--model", "orthoglide.toml"),
+    (
+        "view @ --export page.html --force-overwrite",
+        "--model",
+        "orthoglide.toml",
+    ),
 ];
 
 /// Commands with two models, which a test of their own calls.

@@ -103,6 +103,7 @@ mod verify_others;
 mod verify_robot;
 mod verify_words;
 mod vibration;
+mod view;
 mod weight;
 mod without_motion;
 mod words;

@@ -15,7 +15,9 @@ const PIXELS: f64 = 470.0;
 const MOST_NAMES: usize = 14;
 
 impl Scene {
-    pub(super) fn of(mechanism: &Mechanism, placed: &Placed) -> Self {
+    /// The machine in a state.
+    #[must_use]
+    pub fn of(mechanism: &Mechanism, placed: &Placed) -> Self {
         // Symbols are as large as the whole machine asks: the first pass finds that out.
         let first = Self::with_unit(mechanism, placed, 0.0);
         Self::with_unit(mechanism, placed, first.extent() / PIXELS)

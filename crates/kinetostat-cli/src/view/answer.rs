@@ -1,0 +1,161 @@
+//! What the page asks and is told, stable names with units.
+
+use kinetostat_report::{Scene, ShownPose};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The machine of a session.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct MachineAnswer {
+    pub(crate) name: String,
+    pub(crate) description: Option<String>,
+    /// As named on the command line.
+    pub(crate) source: String,
+    pub(crate) actuators: Vec<ActuatorRange>,
+    pub(crate) limbs: Vec<String>,
+    /// Diagonal of the box around the machine at home.
+    pub(crate) size_mm: f64,
+    pub(crate) gravity_m_per_s2: [f64; 3],
+    /// True if a program belongs to the session.
+    pub(crate) has_path: bool,
+    pub(crate) version: &'static str,
+}
+
+/// How far an actuator goes.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct ActuatorRange {
+    pub(crate) name: String,
+    /// `mm` or `deg`.
+    pub(crate) unit: &'static str,
+    pub(crate) low: Option<f64>,
+    pub(crate) high: Option<f64>,
+    pub(crate) home: f64,
+}
+
+/// A state that is asked for: by joints, by the place of the tool, or as it is at a place of the program; at home without any.
+#[derive(Clone, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct StateRequest {
+    /// Values of all actuators, mm and deg.
+    pub(crate) actuators: Option<Vec<f64>>,
+    /// Place of the tool, base axes; orientation as at home, or the nearest that the machine can have there.
+    pub(crate) at_mm: Option<[f64; 3]>,
+    /// Index among the places of the program; its load acts.
+    pub(crate) place: Option<usize>,
+    pub(crate) force_n: Option<[f64; 3]>,
+    pub(crate) moment_n_m: Option<[f64; 3]>,
+}
+
+/// A machine in a state under a load.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct StateAnswer {
+    /// Values of all actuators, mm and deg.
+    pub(crate) actuators: Vec<f64>,
+    pub(crate) within_limits: bool,
+    /// Pose as commanded.
+    pub(crate) tool: ShownPose,
+    pub(crate) tool_deflected: Option<ShownPose>,
+    /// The machine as drawn and commanded, without a load.
+    pub(crate) scene: Scene,
+    /// In equilibrium under load and weights, with its deviations.
+    pub(crate) deflected: Option<Scene>,
+    pub(crate) force_n: [f64; 3],
+    pub(crate) moment_n_m: [f64; 3],
+    pub(crate) figures: Vec<Figure>,
+    pub(crate) displacement_mm: Option<[f64; 3]>,
+    pub(crate) displacement_by_load_mm: Option<[f64; 3]>,
+    pub(crate) turn_mrad: Option<[f64; 3]>,
+    pub(crate) compliance: Option<Compliance>,
+    pub(crate) rotary_compliance: Option<RotaryCompliance>,
+    /// Shares of the deflection along the load, the largest first; empty without a load.
+    pub(crate) shares: Vec<ShareOfPart>,
+    pub(crate) stable: Option<bool>,
+    pub(crate) limb_loads: Vec<LimbLoad>,
+    /// Why there is no equilibrium.
+    pub(crate) finding: Option<String>,
+    /// The command that says the same.
+    pub(crate) cli: String,
+    pub(crate) python: String,
+}
+
+/// A figure in words.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct Figure {
+    pub(crate) label: String,
+    pub(crate) value: String,
+    pub(crate) detail: Option<String>,
+}
+
+/// Displacement of the tool by a force on it, principal axes in base axes.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct Compliance {
+    pub(crate) axes: Vec<[f64; 3]>,
+    pub(crate) um_per_n: Vec<f64>,
+}
+
+/// Turn of the tool by a moment on it, principal axes in base axes.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct RotaryCompliance {
+    pub(crate) axes: Vec<[f64; 3]>,
+    pub(crate) urad_per_n_m: Vec<f64>,
+}
+
+/// Share of a part.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct ShareOfPart {
+    pub(crate) part: String,
+    pub(crate) limb: Option<String>,
+    pub(crate) percent: f64,
+}
+
+/// What the platform puts on a limb.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct LimbLoad {
+    pub(crate) limb: String,
+    pub(crate) force_n: [f64; 3],
+    pub(crate) share_to_buckling: Option<f64>,
+}
+
+/// The path of a program.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct PathAnswer {
+    pub(crate) program: String,
+    pub(crate) text: String,
+    pub(crate) places: Vec<PlaceOnPath>,
+    pub(crate) tolerance_mm: Option<f64>,
+    pub(crate) headline: Vec<String>,
+}
+
+/// A place of the path.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct PlaceOnPath {
+    /// Line of the program, from 1.
+    pub(crate) line: usize,
+    pub(crate) path_mm: f64,
+    /// Time since the beginning, s; null where no feed says it.
+    pub(crate) time_s: Option<f64>,
+    /// Base axes.
+    pub(crate) position_mm: [f64; 3],
+    /// Base axes.
+    pub(crate) force_n: [f64; 3],
+    pub(crate) error_before_mm: f64,
+    /// Error with the compensated program.
+    pub(crate) error_after_mm: Option<f64>,
+}
+
+/// What a page without a server holds.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct Exported {
+    pub(crate) machine: MachineAnswer,
+    pub(crate) state: StateAnswer,
+    pub(crate) path: Option<PathAnswer>,
+    /// States at some places of the path.
+    pub(crate) states: Vec<ExportedState>,
+}
+
+/// A state at a place of the path.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct ExportedState {
+    pub(crate) place: usize,
+    pub(crate) state: StateAnswer,
+}

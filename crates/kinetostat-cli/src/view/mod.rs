@@ -1,0 +1,194 @@
+//! `kinetostat view`: a machine in three dimensions, in the browser.
+//!
+//! It takes a model or a job, serves a page on this computer and answers what the page asks; or writes the page with its results as
+//! one file.
+
+mod answer;
+mod path;
+mod session;
+mod state;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+use kinetostat_diagnostic::ErrorCode;
+use kinetostat_view::{ServeError, Server, exported};
+
+use crate::files::file_kind::FileKind;
+use crate::files::input_files::InputFiles;
+use crate::files::outputs::{self, Existing, Outputs};
+use crate::options::{EXIT_CODES, number, vector, whole};
+use crate::place::arguments::PlaceArgs;
+use crate::place::joints;
+use crate::ui::failure::{Answer, Failing, Failure};
+use crate::ui::host;
+use crate::ui::result_form::ResultForm;
+use crate::ui::screen::{self, Stream};
+use crate::view::answer::{Exported, StateRequest};
+use crate::view::session::Session;
+
+/// A machine in three dimensions, in the browser: move it, load it, see it bend
+///
+/// The page shows the machine with its limbs, joints and platforms, as it is commanded and, larger than it is, as it bends under a
+/// load; joints, tool and force are moved by hand, and every figure is computed anew. With a job, the path of its program is coloured
+/// by the error of the tool, before and after compensation. The page comes from this program and goes to this computer only;
+/// Ctrl-C ends it.
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_CODES, after_long_help = HELP)]
+pub(crate) struct ViewArgs {
+    /// Preset, model file, or job file
+    #[arg(value_name = "MODEL|JOB")]
+    subject: String,
+    /// Start with the tool's tip here, mm, base axes
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, value_parser = number)]
+    at: Option<Vec<f64>>,
+    /// Start with these joints, deg and mm, as in shoulder=30 rail=250; others at home
+    #[arg(long, num_args = 1.., value_name = "JOINT=VALUE", value_delimiter = ',', conflicts_with = "at")]
+    joints: Vec<String>,
+    /// Start with this force on the tool, N, base axes
+    #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true, value_parser = number)]
+    force: Option<Vec<f64>>,
+    /// Start with this moment on the tool, N m, base axes
+    #[arg(long, num_args = 3, value_names = ["MX", "MY", "MZ"], allow_negative_numbers = true, value_parser = number)]
+    moment: Option<Vec<f64>>,
+    /// Port on this computer [default: any that is free]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole, conflicts_with = "export")]
+    port: Option<usize>,
+    /// Say where the page is and open no browser
+    #[arg(long, conflicts_with = "export")]
+    no_browser: bool,
+    /// Write the page with its results as one file, which needs no server
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    export: Option<PathBuf>,
+    /// Overwrite an existing file
+    #[arg(long, help_heading = "Outputs", requires = "export")]
+    force_overwrite: bool,
+}
+
+const HELP: &str = "\
+Examples:
+  kinetostat view orthoglide
+  kinetostat view my_robot.toml --joints A1=30 --force 0 300 -500
+  kinetostat view job.toml
+  kinetostat view job.toml --export part.html
+
+Exit codes:
+  0    answered
+  1    wrong input: a file, a number or an option; the message says which
+  2    no answer: a place that cannot be reached, a program that cannot be run
+  130  stopped with Ctrl-C";
+
+/// Results that the command gives as JSON: what an exported page holds.
+pub(crate) const RESULTS: &[ResultForm] =
+    &[ResultForm::of::<Exported>("results in an exported page")];
+
+impl From<ServeError> for Failure {
+    fn from(error: ServeError) -> Self {
+        ErrorCode::Value.failure(format!("{error}; give another --port, or none"))
+    }
+}
+
+pub(crate) fn run(args: &ViewArgs) -> Answer<()> {
+    let (session, start) = session(args)?;
+    match &args.export {
+        Some(file) => export(args, file, &session, &start),
+        None => serve(args, session, &start),
+    }
+}
+
+fn session(args: &ViewArgs) -> Answer<(Session, StateRequest)> {
+    let subject = Path::new(&args.subject);
+    let session = match FileKind::of_file(subject) {
+        Some(FileKind::Job) => {
+            let (model, program) = path::of_job(subject)?;
+            Session {
+                named: args.subject.clone(),
+                path: Some(subject.to_owned()),
+                model,
+                program: Some(program),
+            }
+        }
+        _ => {
+            let (model, path) = InputFiles::default().model(&args.subject, Path::new(""))?;
+            Session {
+                named: args.subject.clone(),
+                path,
+                model,
+                program: None,
+            }
+        }
+    };
+    session.model.require_stiffness()?;
+    let triple = |option: &str, given: &Option<Vec<f64>>| {
+        let found = given.as_deref().map(|v| vector(option, v)).transpose()?;
+        Ok::<_, Failure>(found.map(Into::into))
+    };
+    let place = PlaceArgs {
+        joints: args.joints.clone(),
+        ..PlaceArgs::default()
+    };
+    let commands = joints::given(&session.model, &place)?;
+    let start = StateRequest {
+        actuators: commands.map(|own| {
+            let values = joints::of_model(&session.model.mechanism, &own);
+            values.into_iter().map(|value| value.value).collect()
+        }),
+        at_mm: triple("--at", &args.at)?,
+        place: None,
+        force_n: triple("--force", &args.force)?,
+        moment_n_m: triple("--moment", &args.moment)?,
+    };
+    // What cannot be shown is said here rather than in the browser.
+    session.state_answer(&start)?;
+    Ok((session, start))
+}
+
+fn export(args: &ViewArgs, file: &Path, session: &Session, start: &StateRequest) -> Answer<()> {
+    let inputs = session.path.iter().cloned().collect();
+    let mut outputs = Outputs::new(Existing::forced(args.force_overwrite), inputs);
+    let index = outputs.claim("page", file)?;
+    let results = serde_json::to_string(&session.exported(start)?);
+    let results = results.map_err(|error| ErrorCode::Internal.failure(error.to_string()))?;
+    let page = exported(&results)
+        .ok_or_else(|| ErrorCode::Internal.failure("the page has no place for results"))?;
+    outputs.fill(index, page.as_bytes())?;
+    let paths = outputs.commit()?;
+    screen::print(Stream::Out, &outputs::written(&paths))
+}
+
+fn serve(args: &ViewArgs, session: Session, start: &StateRequest) -> Answer<()> {
+    if host::current().is_some() {
+        return Err(ErrorCode::NotBuiltIn.failure(
+            "view serves its page from the command line only: kinetostat view; or write it as a file (export)",
+        ));
+    }
+    let port = u16::try_from(args.port.unwrap_or(0))
+        .map_err(|_| ErrorCode::Value.failure("--port: 0 to 65535"))?;
+    let server = Server::listen(port)?;
+    let state = serde_json::to_string(start).unwrap_or_default();
+    let url = format!("{}#state={}", server.url(), in_url(&state));
+    screen::print(
+        Stream::Out,
+        &format!(
+            "{} in three dimensions: {url}\nCtrl-C ends it.\n",
+            session.named
+        ),
+    )?;
+    if !args.no_browser && open::that_detached(&url).is_err() {
+        screen::print(
+            Stream::Err,
+            "no browser could be opened: open the address above in one\n",
+        )?;
+    }
+    Ok(server.serve(Arc::new(session))?)
+}
+
+/// A text as part of an address.
+fn in_url(text: &str) -> String {
+    let byte = |b: u8| match b.is_ascii_alphanumeric() || b"-_.~,:".contains(&b) {
+        true => char::from(b).to_string(),
+        false => format!("%{b:02X}"),
+    };
+    text.bytes().map(byte).collect()
+}

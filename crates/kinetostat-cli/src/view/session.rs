@@ -1,0 +1,213 @@
+//! A session: one machine, perhaps with the program of a job, and the states that are asked of it.
+
+use std::path::PathBuf;
+
+use kinetostat::{Mechanism, PostureRequest, Wrench};
+use kinetostat_diagnostic::ErrorCode;
+use kinetostat_model::Model;
+use kinetostat_report::{Placed, Scene};
+use kinetostat_view::{Answers, Refused};
+use nalgebra::Vector3;
+use serde::Serialize;
+
+use crate::machine::units::unit;
+use crate::place::arguments::PlaceArgs;
+use crate::place::joints;
+use crate::place::query::place_query_of;
+use crate::ui::failure::{Answer, Failing, Failure};
+use crate::view::answer::{
+    ActuatorRange, Exported, ExportedState, MachineAnswer, StateAnswer, StateRequest,
+};
+use crate::view::path::ShownPath;
+use crate::view::state::state_of;
+
+/// A machine and what belongs to it.
+pub(super) struct Session {
+    /// As the command line names it.
+    pub(super) named: String,
+    pub(super) path: Option<PathBuf>,
+    /// The model; with a job, its machine has the job's tool.
+    pub(super) model: Model,
+    pub(super) program: Option<ShownPath>,
+}
+
+/// Largest force and moment that are asked for, N and N m: what exceeds it is a wrong unit.
+const MOST_LOAD: f64 = 1e9;
+
+/// States along the path that an exported page holds.
+const EXPORTED_STATES: usize = 60;
+
+impl Session {
+    fn mechanism(&self) -> &Mechanism {
+        &self.model.mechanism
+    }
+
+    pub(super) fn machine_answer(&self) -> Answer<MachineAnswer> {
+        let mechanism = self.mechanism();
+        let home = joints::of_model(mechanism, &joints::home(mechanism));
+        let actuators = mechanism.limbs().iter().flat_map(|l| l.nominal.actuators());
+        let ranges = home.into_iter().zip(actuators).map(|(home, actuator)| {
+            let shown = |x: f64| x / unit(actuator.kind).1;
+            ActuatorRange {
+                name: home.name,
+                unit: home.unit,
+                low: actuator.limits.map(|(low, _)| shown(low)),
+                high: actuator.limits.map(|(_, high)| shown(high)),
+                home: home.value,
+            }
+        });
+        let target = mechanism.platforms()[mechanism.tool()].home;
+        let posture = mechanism.posture(&target)?;
+        let size = Scene::of(mechanism, &Placed::at(&posture)).size();
+        Ok(MachineAnswer {
+            name: self.model.name().to_owned(),
+            description: self.model.document.mechanism.description.clone(),
+            source: self.named.clone(),
+            actuators: ranges.collect(),
+            limbs: mechanism.limbs().iter().map(|l| l.name.clone()).collect(),
+            size_mm: 1e3 * size,
+            gravity_m_per_s2: mechanism.gravity().into(),
+            has_path: self.program.is_some(),
+            version: env!("CARGO_PKG_VERSION"),
+        })
+    }
+
+    pub(super) fn state_answer(&self, request: &StateRequest) -> Answer<StateAnswer> {
+        let asked = [
+            request.actuators.is_some(),
+            request.at_mm.is_some(),
+            request.place.is_some(),
+        ];
+        if asked.iter().filter(|given| **given).count() > 1 {
+            return Err(ErrorCode::Conflict.failure(
+                "a state is asked for by actuators, by at_mm or by place: give one of them",
+            ));
+        }
+        let mechanism = self.mechanism();
+        let load = |what: &str, given: Option<[f64; 3]>| {
+            let v = given.unwrap_or_default();
+            match v.iter().all(|x| x.abs() <= MOST_LOAD) {
+                true => Ok(Vector3::from(v)),
+                false => Err(ErrorCode::Value.failure(format!(
+                    "{what} has to be finite, and at most {MOST_LOAD:e}"
+                ))),
+            }
+        };
+        let given = Wrench::new(
+            load("force_n", request.force_n)?,
+            load("moment_n_m", request.moment_n_m)?,
+        );
+        let (posture, wrench) = if let Some(at) = request.at_mm {
+            let place = PlaceArgs {
+                at: Some(at.to_vec()),
+                ..PlaceArgs::default()
+            };
+            let query = place_query_of(
+                &self.model,
+                self.path.clone(),
+                &self.named,
+                &place,
+                None,
+                None,
+                None,
+            )?;
+            (query.standing()?, given)
+        } else if let Some(index) = request.place {
+            let place = self
+                .program
+                .as_ref()
+                .and_then(|program| program.places.get(index));
+            let place = place
+                .ok_or_else(|| ErrorCode::Value.failure(format!("there is no place {index}")))?;
+            let moved = mechanism.with_tool(&place.tip);
+            let request = PostureRequest::commands(&place.commands);
+            (moved.posture(request)?, place.wrench)
+        } else {
+            let commands = match &request.actuators {
+                Some(values) => commands(mechanism, values)?,
+                None => joints::home(mechanism),
+            };
+            (
+                mechanism.posture(PostureRequest::commands(&commands))?,
+                given,
+            )
+        };
+        let mut answer = state_of(&posture, &wrench, &self.named);
+        if self.program.is_some() {
+            // The tool of a job has more words than the options of a single place.
+            answer.cli = format!("kinetostat deflect {}", self.named);
+        }
+        Ok(answer)
+    }
+
+    /// What a page without a server holds, at a state.
+    pub(super) fn exported(&self, request: &StateRequest) -> Answer<Exported> {
+        let places = self
+            .program
+            .as_ref()
+            .map_or(0, |program| program.places.len());
+        let step = places.div_ceil(EXPORTED_STATES).max(1);
+        let at = |place: usize| {
+            let request = StateRequest {
+                place: Some(place),
+                ..StateRequest::default()
+            };
+            let state = self.state_answer(&request)?;
+            Ok(ExportedState { place, state })
+        };
+        Ok(Exported {
+            machine: self.machine_answer()?,
+            state: self.state_answer(request)?,
+            path: self.program.as_ref().map(|program| program.answer()),
+            states: (0..places).step_by(step).map(at).collect::<Answer<_>>()?,
+        })
+    }
+}
+
+/// Commands (m, rad) of values as they are shown.
+fn commands(mechanism: &Mechanism, values: &[f64]) -> Answer<Vec<f64>> {
+    let kinds = joints::kinds(mechanism);
+    if values.len() != kinds.len() || !values.iter().all(|x| x.abs() <= 1e7) {
+        return Err(ErrorCode::Value.failure(format!(
+            "actuators has {} values; {} finite ones are needed, mm and deg",
+            values.len(),
+            kinds.len()
+        )));
+    }
+    Ok(values
+        .iter()
+        .zip(kinds)
+        .map(|(x, kind)| x * unit(kind).1)
+        .collect())
+}
+
+impl From<Failure> for Refused {
+    fn from(failure: Failure) -> Self {
+        let code = failure.diagnostics().into_iter().next().map(|d| d.code);
+        let code = serde_json::to_value(code).unwrap_or_default();
+        let code = code.as_str().unwrap_or_default();
+        Self::new(code, failure.plain)
+    }
+}
+
+fn json(answer: &impl Serialize) -> Result<String, Refused> {
+    serde_json::to_string(answer).map_err(|error| Refused::new("internal", error.to_string()))
+}
+
+impl Answers for Session {
+    fn machine(&self) -> Result<String, Refused> {
+        json(&self.machine_answer()?)
+    }
+
+    fn state(&self, request: &[u8]) -> Result<String, Refused> {
+        let request: StateRequest = serde_json::from_slice(request).map_err(|error| {
+            Refused::new("value", format!("the request is not understood: {error}"))
+        })?;
+        json(&self.state_answer(&request)?)
+    }
+
+    fn path(&self) -> Option<String> {
+        let program = self.program.as_ref()?;
+        json(&program.answer()).ok()
+    }
+}

@@ -1,0 +1,214 @@
+//! `view`: what the page is told is what the other commands say.
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+
+use serde_json::{Value, json};
+
+use crate::common::{BINARY, run};
+
+/// A server that ends with the test.
+struct Served {
+    process: Child,
+    host: String,
+}
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+impl Served {
+    fn of(here: &Path, words: &[&str]) -> Self {
+        let mut process = Command::new(BINARY)
+            .arg("view")
+            .args(words)
+            .arg("--no-browser")
+            .current_dir(here)
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("the command runs");
+        let mut line = String::new();
+        let out = process.stdout.take().expect("a pipe");
+        BufReader::new(out).read_line(&mut line).expect("a line");
+        let address = line.split_once("http://").map(|(_, rest)| rest);
+        let host = address
+            .and_then(|rest| rest.split_once('/'))
+            .map(|(host, _)| host);
+        let host = host
+            .unwrap_or_else(|| panic!("no address: {line}"))
+            .to_owned();
+        Self { process, host }
+    }
+
+    fn answer(&self, request: &str) -> (u16, Value) {
+        let mut stream = TcpStream::connect(&self.host).expect("a connection");
+        stream.write_all(request.as_bytes()).expect("written");
+        let mut text = String::new();
+        stream.read_to_string(&mut text).expect("an answer");
+        let code = text.split(' ').nth(1).and_then(|code| code.parse().ok());
+        let body = text.split_once("\r\n\r\n").expect("a body").1;
+        (code.unwrap_or(0), serde_json::from_str(body).expect("JSON"))
+    }
+
+    fn get(&self, path: &str) -> (u16, Value) {
+        let host = &self.host;
+        self.answer(&format!(
+            "GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"
+        ))
+    }
+
+    fn state(&self, request: &Value) -> (u16, Value) {
+        let (host, body) = (&self.host, request.to_string());
+        let length = body.len();
+        self.answer(&format!("POST /api/state HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\nContent-Type: application/json\r\nContent-Length: {length}\r\n\r\n{body}"))
+    }
+}
+
+fn here() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a directory")
+}
+
+#[test]
+fn a_state_has_the_figures_of_deflect_and_shares() {
+    let here = here();
+    let served = Served::of(here.path(), &["heavy_6r"]);
+    let (code, machine) = served.get("/api/machine");
+    assert_eq!(
+        (code, machine["actuators"].as_array().map(Vec::len)),
+        (200, Some(6))
+    );
+    assert_eq!(served.get("/api/path").0, 404);
+    let home = machine["actuators"].as_array().expect("a list");
+    let mut joints: Vec<f64> = home
+        .iter()
+        .map(|a| a["home"].as_f64().expect("a number"))
+        .collect();
+    joints[0] += 20.0;
+    let (code, state) = served.state(&json!({ "actuators": joints, "force_n": [300, -200, -900] }));
+    assert_eq!(code, 200, "{state}");
+    // The command that the page offers to copy says the same.
+    let cli = state["cli"].as_str().expect("a text");
+    let mut words: Vec<String> = Vec::new();
+    for (k, part) in cli.split('\'').enumerate() {
+        match k % 2 {
+            0 => words.extend(part.split_whitespace().map(str::to_owned)),
+            _ => words.push(part.to_owned()),
+        }
+    }
+    words.push("--json".to_owned());
+    let words: Vec<&str> = words[1..].iter().map(String::as_str).collect();
+    let said: Value = serde_json::from_str(&run(here.path(), &words).answered().out).expect("JSON");
+    for key in ["displacement_mm", "displacement_by_load_mm"] {
+        assert_eq!(state[key], said[key], "{key}");
+    }
+    assert_eq!(
+        state["limb_loads"][0]["force_n"],
+        said["limbs"][0]["force_n"]
+    );
+    assert_eq!(state["stable"], said["stable"]);
+    let turn = |v: &Value, unit: f64| -> Vec<f64> {
+        v.as_array()
+            .expect("a list")
+            .iter()
+            .map(|x| unit * x.as_f64().expect("a number"))
+            .collect()
+    };
+    let (shown, wanted) = (
+        turn(&state["turn_mrad"], 1e-3),
+        turn(&said["rotation_vector_deg"], 1f64.to_radians()),
+    );
+    for (shown, wanted) in shown.iter().zip(&wanted) {
+        assert!((shown - wanted).abs() < 1e-12, "{shown} {wanted}");
+    }
+    let sum: f64 = state["shares"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|s| s["percent"].as_f64().expect("a number"))
+        .sum();
+    assert!((90.0..=110.0).contains(&sum), "{sum}");
+    let bars = |scene: &str| state[scene]["bars"].as_array().map(Vec::len);
+    assert_eq!(bars("scene"), bars("deflected"));
+}
+
+#[test]
+fn absurd_questions_are_answered_in_words() {
+    let here = here();
+    let served = Served::of(here.path(), &["orthoglide"]);
+    for (request, code) in [
+        (json!({ "at_mm": [1000, 0, 0] }), "unreachable"),
+        (
+            json!({ "at_mm": [0, 0, 0], "actuators": [0, 0, 0] }),
+            "conflict",
+        ),
+        (json!({ "actuators": [0, 0] }), "value"),
+        (json!({ "actuators": [1e300, 0, 0] }), "value"),
+        (json!({ "force_n": [1e300, 0, 0] }), "value"),
+        (json!({ "place": 0 }), "value"),
+        (json!({ "force": [1, 0, 0] }), "value"),
+        (json!([1, 2]), "value"),
+    ] {
+        let (status, answer) = served.state(&request);
+        assert_eq!(status, 422, "{request}");
+        assert_eq!(answer["error"]["code"], code, "{request}: {answer}");
+    }
+    // No equilibrium is a finding, and the machine is shown as it is commanded.
+    let (status, answer) = served.state(&json!({ "force_n": [0, 0, -1e8] }));
+    assert_eq!(status, 200);
+    assert!(
+        answer["finding"].is_string() || answer["stable"] == false,
+        "{}",
+        answer["figures"]
+    );
+    assert!(answer["scene"]["bars"].is_array());
+}
+
+#[test]
+fn an_exported_page_holds_machine_path_and_states() {
+    let here = here();
+    let here = here.path();
+    run(here, &["demo"]).answered();
+    let folder = here.join("kinetostat-demo");
+    let words = ["view", "job.toml", "--export", "page.html"];
+    run(&folder, &words).answered();
+    let page = std::fs::read_to_string(folder.join("page.html")).expect("a page");
+    let data = page
+        .split_once("<script id=\"kinetostat-data\" type=\"application/json\">")
+        .expect("results")
+        .1;
+    let data: Value =
+        serde_json::from_str(data.split_once("</script>").expect("an end").0).expect("JSON");
+    let places = data["path"]["places"].as_array().expect("a list");
+    assert!(places.len() > 100, "{}", places.len());
+    let most = |key: &str| {
+        let each = places.iter().map(|p| p[key].as_f64().expect("a number"));
+        each.fold(0.0, kinetostat::number::larger)
+    };
+    // README's figures of the demo.
+    assert!(
+        (most("error_before_mm") - 0.778).abs() < 2e-3,
+        "{}",
+        most("error_before_mm")
+    );
+    assert!(most("error_after_mm") < 1e-3, "{}", most("error_after_mm"));
+    let states = data["states"].as_array().expect("a list");
+    assert!((20..=80).contains(&states.len()), "{}", states.len());
+    assert!(
+        states
+            .iter()
+            .all(|s| s["state"]["deflected"]["bars"].is_array())
+    );
+    assert!(
+        data["path"]["text"]
+            .as_str()
+            .is_some_and(|text| text.contains("G3"))
+    );
+    // Not over a file that is there.
+    assert_eq!(run(&folder, &words).code, 1);
+    assert!(page.len() < 7_000_000, "{} bytes", page.len());
+}

@@ -1,0 +1,170 @@
+// What the server answers. The types are those of `kinetostat schema view`.
+
+export type Vec3 = [number, number, number];
+
+export interface Pose {
+  position_mm: Vec3;
+  quaternion_xyzw: [number, number, number, number];
+}
+
+export interface Machine {
+  name: string;
+  description: string | null;
+  source: string;
+  actuators: { name: string; unit: "deg" | "mm"; low: number | null; high: number | null; home: number }[];
+  limbs: string[];
+  size_mm: number;
+  gravity_m_per_s2: Vec3;
+  has_path: boolean;
+  version: string;
+}
+
+export interface StateRequest {
+  actuators?: number[] | null;
+  at_mm?: Vec3 | null;
+  place?: number | null;
+  force_n?: Vec3 | null;
+  moment_n_m?: Vec3 | null;
+}
+
+export interface Bar {
+  limb: number | null;
+  ends_mm: [Vec3, Vec3];
+  tangents_mm: [Vec3, Vec3];
+  kind: "rigid" | "elastic" | "rod" | "ram" | "twice" | "rail" | "spring";
+}
+
+export interface Joint {
+  at_mm: Vec3;
+  axis: Vec3;
+  across: Vec3;
+  half_mm: number;
+  kind: "motor" | "sleeve" | "slide" | "turn" | "universal" | "spherical" | "spring";
+}
+
+export interface Scene {
+  bars: Bar[];
+  joints: Joint[];
+  plates: { points_mm: Vec3[]; base: boolean }[];
+  grounds: { at_mm: Vec3; away: Vec3 }[];
+  words: { at_mm: Vec3; text: string }[];
+  tool: Pose;
+  size_mm: number;
+}
+
+export interface State {
+  actuators: number[];
+  within_limits: boolean;
+  tool: Pose;
+  tool_deflected: Pose | null;
+  scene: Scene;
+  deflected: Scene | null;
+  force_n: Vec3;
+  moment_n_m: Vec3;
+  figures: { label: string; value: string; detail: string | null }[];
+  displacement_mm: Vec3 | null;
+  displacement_by_load_mm: Vec3 | null;
+  turn_mrad: Vec3 | null;
+  compliance: { axes: Vec3[]; um_per_n: number[] } | null;
+  rotary_compliance: { axes: Vec3[]; urad_per_n_m: number[] } | null;
+  shares: { part: string; limb: string | null; percent: number }[];
+  stable: boolean | null;
+  limb_loads: { limb: string; force_n: Vec3; share_to_buckling: number | null }[];
+  finding: string | null;
+  cli: string;
+  python: string;
+}
+
+export interface Place {
+  line: number;
+  path_mm: number;
+  time_s: number | null;
+  position_mm: Vec3;
+  force_n: Vec3;
+  error_before_mm: number;
+  error_after_mm: number | null;
+}
+
+export interface Path {
+  program: string;
+  text: string;
+  places: Place[];
+  tolerance_mm: number | null;
+  headline: string[];
+}
+
+export interface Exported {
+  machine: Machine;
+  state: State;
+  path: Path | null;
+  states: { place: number; state: State }[];
+}
+
+/** Where answers come from: the server, or the file itself. */
+export interface Source {
+  readonly live: boolean;
+  machine(): Promise<Machine>;
+  path(): Promise<Path | null>;
+  state(request: StateRequest): Promise<State>;
+  /** The nearest place of a path of which there is a state. */
+  nearest(place: number): number;
+}
+
+async function json<T>(response: Response): Promise<T> {
+  const body: unknown = await response.json();
+  if (response.ok) {
+    return body as T;
+  }
+  const error = (body as { error?: { message?: string } }).error;
+  throw new Error(error?.message ?? `The server answers with ${response.status}.`);
+}
+
+class Server implements Source {
+  readonly live = true;
+
+  async machine(): Promise<Machine> {
+    return json(await fetch("api/machine"));
+  }
+
+  async path(): Promise<Path | null> {
+    const response = await fetch("api/path");
+    return response.status === 404 ? null : json(response);
+  }
+
+  async state(request: StateRequest): Promise<State> {
+    const headers = { "content-type": "application/json" };
+    return json(await fetch("api/state", { method: "POST", headers, body: JSON.stringify(request) }));
+  }
+
+  nearest(place: number): number {
+    return place;
+  }
+}
+
+class File implements Source {
+  readonly live = false;
+
+  constructor(private readonly held: Exported) {}
+
+  async machine(): Promise<Machine> {
+    return this.held.machine;
+  }
+
+  async path(): Promise<Path | null> {
+    return this.held.path;
+  }
+
+  async state(request: StateRequest): Promise<State> {
+    return this.held.states.find((own) => own.place === request.place)?.state ?? this.held.state;
+  }
+
+  nearest(place: number): number {
+    const far = (own: number) => Math.abs(own - place);
+    return this.held.states.map((own) => own.place).reduce((best, own) => (far(own) < far(best) ? own : best), 0);
+  }
+}
+
+export function source(): Source {
+  const text = document.getElementById("kinetostat-data")?.textContent ?? "";
+  return text === "" ? new Server() : new File(JSON.parse(text) as Exported);
+}

@@ -1,0 +1,36 @@
+// The page: machine, panel, and the path of a program.
+
+import { source } from "./api";
+import { Panel, button, element } from "./panel";
+import { PathView } from "./pathview";
+import { Stage } from "./stage";
+import { Store } from "./store";
+import "./style.css";
+
+async function start(): Promise<void> {
+  const from = source();
+  const machine = await from.machine();
+  const path = machine.has_path || !from.live ? await from.path() : null;
+  document.title = `${machine.name} - kinetostat`;
+  const store = new Store(from, machine, path);
+  await store.ask();
+  const place = (id: string) => document.getElementById(id) ?? document.body;
+  const stage = new Stage(place("stage"), store);
+  const panel = new Panel(place("panel"), store, stage);
+  const program = path === null ? null : new PathView(place("path"), store, stage, path);
+  document.body.classList.toggle("with-path", program !== null);
+  const draw = () => {
+    stage.draw();
+    panel.show();
+    program?.show();
+  };
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
+  store.onChange(draw);
+  draw();
+  stage.look("Oblique");
+}
+
+start().catch((error: unknown) => {
+  const words = error instanceof TypeError ? "The server does not answer: is the command still running?" : String((error as Error).message ?? error);
+  document.body.replaceChildren(element("p", { class: "finding", role: "alert" }, words), button("Retry", () => window.location.reload()));
+});

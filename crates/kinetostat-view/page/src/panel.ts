@@ -1,0 +1,228 @@
+// The panel beside the machine: joints, tool, load, figures, and what can be copied.
+
+import type { State, Vec3 } from "./api";
+import { byShare } from "./colour";
+import { VIEWS, limbValues, type Stage } from "./stage";
+import { scaleOf, shown, type Colours, type Store } from "./store";
+
+/** An element with attributes and content. */
+export function element<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Record<string, string> = {}, ...content: (Node | string)[]): HTMLElementTagNameMap[K] {
+  const made = document.createElement(tag);
+  Object.entries(attributes).forEach(([name, value]) => made.setAttribute(name, value));
+  made.append(...content);
+  return made;
+}
+
+export function button(words: string, action: () => void, title = words): HTMLButtonElement {
+  const made = element("button", { type: "button", title }, words);
+  made.addEventListener("click", action);
+  return made;
+}
+
+function section(title: string, ...content: (Node | string)[]): HTMLElement {
+  return element("section", {}, element("h2", {}, title), ...content);
+}
+
+/** A number that is typed; empty counts as nothing. */
+function number(label: string, unit: string, change: (x: number) => void): HTMLInputElement {
+  const input = element("input", { type: "number", step: "any", "aria-label": `${label}, ${unit}` });
+  input.addEventListener("change", () => {
+    if (input.value !== "" && Number.isFinite(input.valueAsNumber)) {
+      change(input.valueAsNumber);
+    }
+  });
+  return input;
+}
+
+/** Three numbers of a vector. */
+class VectorInput {
+  readonly row: HTMLElement;
+  private readonly inputs: HTMLInputElement[];
+  private values: Vec3 = [0, 0, 0];
+
+  constructor(label: string, unit: string, live: boolean, change: (v: Vec3) => void) {
+    this.inputs = ["x", "y", "z"].map((axis, k) =>
+      number(`${label} ${axis}`, unit, (x) => {
+        const next: Vec3 = [...this.values];
+        next[k] = x;
+        // The next number may be typed before the answer comes.
+        this.values = next;
+        change(next);
+      }),
+    );
+    this.inputs.forEach((input) => (input.disabled = !live));
+    this.row = element("div", { class: "triple" }, element("span", {}, label), ...this.inputs, element("span", { class: "unit" }, unit));
+  }
+
+  show(values: Vec3): void {
+    this.values = values;
+    this.inputs.forEach((input, k) => {
+      if (document.activeElement !== input) {
+        input.value = String(Number(values[k]!.toFixed(4)));
+      }
+    });
+  }
+}
+
+export class Panel {
+  private readonly finding = element("p", { class: "finding", role: "alert" });
+  private readonly sliders: { range: HTMLInputElement; typed: HTMLInputElement }[];
+  private readonly tool: VectorInput;
+  private readonly force: VectorInput;
+  private readonly moment: VectorInput;
+  private readonly figures = element("dl", {});
+  private readonly shares = element("div", { class: "shares" });
+  private readonly legend = element("div", { class: "shares" });
+  private readonly scale: HTMLInputElement;
+  private readonly said = element("span", { role: "status", class: "unit" });
+
+  constructor(
+    place: HTMLElement,
+    private readonly store: Store,
+    private readonly stage: Stage,
+  ) {
+    const { machine, source } = store;
+    const live = source.live;
+    this.sliders = machine.actuators.map((actuator, i) => {
+      const far = actuator.unit === "deg" ? 180 : machine.size_mm;
+      const [low, high] = [actuator.low ?? actuator.home - far, actuator.high ?? actuator.home + far];
+      const change = (x: number) => {
+        const values = [...(store.request.actuators ?? store.state?.actuators ?? machine.actuators.map((own) => own.home))];
+        values[i] = x;
+        store.change({ actuators: values });
+      };
+      const label = `${actuator.name}, ${actuator.unit}`;
+      const range = element("input", { type: "range", min: String(low), max: String(high), step: "any", "aria-label": label });
+      range.addEventListener("input", () => change(Number(range.valueAsNumber.toPrecision(7))));
+      const typed = number(actuator.name, actuator.unit, change);
+      range.disabled = !live;
+      typed.disabled = !live;
+      return { range, typed };
+    });
+    const joints = machine.actuators.map((actuator, i) => {
+      const { range, typed } = this.sliders[i]!;
+      return element("div", { class: "joint" }, element("span", {}, actuator.name), range, typed, element("span", { class: "unit" }, actuator.unit));
+    });
+    this.tool = new VectorInput("Tool", "mm", live, (at_mm) => store.change({ at_mm }));
+    this.force = new VectorInput("Force", "N", live, (force_n) => store.change({ force_n }));
+    this.moment = new VectorInput("Moment", "N m", live, (moment_n_m) => store.change({ moment_n_m }));
+    this.scale = element("input", { type: "range", min: "0", max: "6", step: "0.01", "aria-label": "Factor of the drawn deflection" });
+    this.scale.addEventListener("input", () => store.draw({ scale: 10 ** this.scale.valueAsNumber }));
+    place.append(
+      element("h1", {}, machine.name),
+      ...(machine.description === null ? [] : [element("p", { class: "unit" }, machine.description)]),
+      ...(live ? [] : [element("p", { class: "unit" }, "This file holds results; kinetostat view computes new ones.")]),
+      this.finding,
+      element("div", { class: "row" }, ...Object.keys(VIEWS).map((view) => button(view, () => stage.look(view), `Look: ${view.toLowerCase()}`)), this.theme()),
+      section("Joints", ...joints, element("div", { class: "row" }, ...(live ? [button("Home", () => store.change({ actuators: null }))] : []))),
+      section("Tool and load, base axes", this.tool.row, this.force.row, this.moment.row, element("div", { class: "row" }, ...(live ? [button("No load", () => store.change({ force_n: null, moment_n_m: null }))] : []))),
+      section(
+        "Drawing",
+        element("div", { class: "joint" }, element("span", {}, "Deflection"), this.scale, button("Round", () => store.draw({ scale: 0 }), "A round factor that shows it")),
+        element("div", { class: "row" }, this.check("Swing", "swing"), this.check("Names", "names"), this.check("Ellipsoid of displacements", "ellipsoid"), this.check("of turns", "rotary")),
+        this.colours(),
+        this.legend,
+      ),
+      section("Figures", this.figures),
+      section("What bends", this.shares),
+      element("div", { class: "row" }, this.copy("Copy link", () => store.link()), this.copy("Copy command", () => store.state?.cli ?? ""), this.copy("Copy Python", () => store.state?.python ?? ""), this.picture(), this.said),
+      element("p", { class: "unit" }, `kinetostat ${machine.version}`),
+    );
+  }
+
+  private check(words: string, key: "swing" | "names" | "ellipsoid" | "rotary"): HTMLElement {
+    const box = element("input", { type: "checkbox" });
+    box.checked = this.store.look[key];
+    box.addEventListener("change", () => this.store.draw({ [key]: box.checked }));
+    return element("label", {}, box, words);
+  }
+
+  private colours(): HTMLElement {
+    const words: Record<Colours, string> = { none: "Plain", share: "Share of the deflection", load: "Force on the limb", buckling: "Way to buckling" };
+    const select = element("select", {}, ...Object.entries(words).map(([value, text]) => element("option", { value }, text)));
+    select.value = this.store.look.colours;
+    select.addEventListener("change", () => this.store.draw({ colours: select.value as Colours }));
+    return element("label", { class: "row" }, "Limbs coloured by", select);
+  }
+
+  private theme(): HTMLElement {
+    return button("Light / dark", () => this.store.draw({ dark: !this.stage.dark() }));
+  }
+
+  private copy(words: string, text: () => string): HTMLElement {
+    return button(words, () => {
+      const done = () => (this.said.textContent = "copied");
+      navigator.clipboard?.writeText(text()).then(done, () => window.prompt("To be copied:", text()));
+      if (navigator.clipboard === undefined) {
+        window.prompt("To be copied:", text());
+      }
+    });
+  }
+
+  private picture(): HTMLElement {
+    return button("Save picture", () => {
+      element("a", { href: this.stage.renderer.domElement.toDataURL("image/png"), download: `${this.store.machine.name}.png` }).click();
+    });
+  }
+
+  show(): void {
+    const { state, error } = this.store;
+    const text = error ?? state?.finding ?? (state?.stable === false ? "Not stable: the machine does not stay here." : "");
+    this.finding.textContent = text || (state?.within_limits === false ? "Beyond the limits of a joint." : "");
+    this.finding.hidden = this.finding.textContent === "";
+    if (state === null) {
+      return;
+    }
+    this.sliders.forEach(({ range, typed }, i) => {
+      const value = state.actuators[i] ?? 0;
+      if (document.activeElement !== range) {
+        range.value = String(value);
+      }
+      if (document.activeElement !== typed) {
+        typed.value = String(Number(value.toFixed(3)));
+      }
+    });
+    this.tool.show(state.tool.position_mm);
+    this.force.show(state.force_n);
+    this.moment.show(state.moment_n_m);
+    this.scale.value = String(Math.log10(scaleOf(this.store)));
+    this.figures.replaceChildren(
+      ...state.figures.flatMap((own) => [element("dt", {}, own.label), element("dd", {}, own.value, ...(own.detail === null ? [] : [element("small", {}, own.detail)]))]),
+    );
+    if (state.compliance && this.store.look.ellipsoid) {
+      const list = state.compliance.um_per_n.map(shown).join(", ");
+      this.figures.append(element("dt", {}, "Axes of the ellipsoid"), element("dd", {}, `${list} um/N`));
+    }
+    if (state.rotary_compliance && this.store.look.rotary) {
+      const list = state.rotary_compliance.urad_per_n_m.map(shown).join(", ");
+      this.figures.append(element("dt", {}, "Axes of the turns"), element("dd", {}, `${list} urad/(N m)`));
+    }
+    this.showShares(state);
+    this.showLegend();
+  }
+
+  private showShares(state: State): void {
+    const several = this.store.machine.limbs.length > 1;
+    const list = state.shares.filter((share) => Math.abs(share.percent) >= 0.1).slice(0, 12);
+    this.shares.replaceChildren(
+      ...list.map((share) => bar(several && share.limb !== null ? `${share.limb}: ${share.part}` : share.part, share.percent / 100, `${share.percent.toFixed(1)} %`, "var(--accent)")),
+    );
+    if (list.length === 0) {
+      this.shares.append(element("p", { class: "unit" }, "A load shows it: shares are those of the deflection along the load."));
+    }
+  }
+
+  private showLegend(): void {
+    const values = limbValues(this.store);
+    const most = Math.max(...values, 1e-300);
+    const unit = this.store.look.colours === "load" ? "N" : "%";
+    this.legend.replaceChildren(...values.map((value, i) => bar(this.store.machine.limbs[i]!, value / most, `${shown(value)} ${unit}`, byShare(value / most))));
+  }
+}
+
+function bar(label: string, share: number, value: string, colour: string): HTMLElement {
+  const fill = element("span", { class: "fill" });
+  fill.style.width = `${Math.min(Math.max(100 * share, 0), 100)}%`;
+  fill.style.background = colour;
+  return element("div", { class: "bar" }, element("span", {}, label), element("span", { class: "track" }, fill), element("span", { class: "value" }, value));
+}

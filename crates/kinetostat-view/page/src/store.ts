@@ -1,0 +1,160 @@
+// What is shown: the state that is asked for, its answer, and how it is drawn. All of it stands in the address of the page.
+
+import type { Machine, Path, Source, State, StateRequest } from "./api";
+
+export type Colours = "none" | "share" | "load" | "buckling";
+
+/** How a state is drawn. */
+export interface Look {
+  /** Factor of the deflection; 0: a round one that shows it. */
+  scale: number;
+  ellipsoid: boolean;
+  rotary: boolean;
+  colours: Colours;
+  names: boolean;
+  swing: boolean;
+  compensated: boolean;
+  dark: boolean | null;
+}
+
+export class Store {
+  request: StateRequest = {};
+  look: Look = {
+    scale: 0,
+    ellipsoid: false,
+    rotary: false,
+    colours: "none",
+    names: true,
+    swing: false,
+    compensated: false,
+    dark: null,
+  };
+  state: State | null = null;
+  error: string | null = null;
+  private readonly listeners: (() => void)[] = [];
+  private asking = false;
+  private waiting = false;
+
+  constructor(
+    readonly source: Source,
+    readonly machine: Machine,
+    readonly path: Path | null,
+  ) {
+    this.restore();
+    window.addEventListener("hashchange", () => {
+      if (window.location.hash !== this.hash()) {
+        this.restore();
+        void this.ask();
+      }
+    });
+  }
+
+  onChange(listener: () => void): void {
+    this.listeners.push(listener);
+  }
+
+  /** Asks for another state; what is not named stays. */
+  change(request: StateRequest): void {
+    const isPlace = request.actuators !== undefined || request.at_mm !== undefined || request.place !== undefined;
+    const { force_n, moment_n_m } = this.request;
+    this.request = isPlace ? { force_n, moment_n_m, ...request } : { ...this.request, ...request };
+    // Of a place of the program the load is the program's.
+    if (typeof request.place === "number") {
+      this.request = { place: this.source.nearest(request.place) };
+    }
+    void this.ask();
+  }
+
+  draw(look: Partial<Look>): void {
+    this.look = { ...this.look, ...look };
+    this.changed();
+  }
+
+  /** One request is under way at a time, and the latest one waits: whoever drags is never behind. */
+  async ask(): Promise<void> {
+    this.waiting = true;
+    if (this.asking) {
+      return;
+    }
+    this.asking = true;
+    while (this.waiting) {
+      this.waiting = false;
+      try {
+        this.state = await this.source.state(this.request);
+        this.error = null;
+      } catch (error) {
+        this.error = error instanceof TypeError ? "The server does not answer: is the command still running?" : String((error as Error).message);
+      }
+      this.changed();
+    }
+    this.asking = false;
+  }
+
+  link(): string {
+    return window.location.href.split("#")[0] + this.hash();
+  }
+
+  private changed(): void {
+    if (this.source.live) {
+      window.history.replaceState(null, "", this.hash());
+    }
+    this.listeners.forEach((listener) => listener());
+  }
+
+  private hash(): string {
+    const plain: StateRequest = Object.fromEntries(Object.entries(this.request).filter(([, value]) => value !== null && value !== undefined));
+    return `#state=${encodeURIComponent(JSON.stringify(plain))}&look=${encodeURIComponent(JSON.stringify(this.look))}`;
+  }
+
+  private restore(): void {
+    const words = new URLSearchParams(window.location.hash.slice(1));
+    const read = <T>(key: string, otherwise: T): T => {
+      try {
+        return { ...otherwise, ...(JSON.parse(words.get(key) ?? "{}") as T) };
+      } catch {
+        return otherwise;
+      }
+    };
+    this.request = read<StateRequest>("state", {});
+    if (typeof this.request.place === "number") {
+      this.request.place = this.source.nearest(this.request.place);
+    }
+    this.look = read("look", this.look);
+  }
+}
+
+/** 1, 2 or 5 times a power of ten, at most `x`. */
+export function round(x: number): number {
+  if (!(x > 0) || !Number.isFinite(x)) {
+    return 1;
+  }
+  const power = 10 ** Math.floor(Math.log10(x));
+  const digit = [5, 2, 1].find((d) => d * power <= x * (1 + 1e-9)) ?? 1;
+  return digit * power;
+}
+
+/** A number with three digits, as people read it. */
+export function shown(x: number): string {
+  if (x === 0) {
+    return "0";
+  }
+  const size = Math.abs(x);
+  return size >= 1e5 || size < 1e-3 ? x.toExponential(2) : String(Number(x.toPrecision(size >= 1000 ? 4 : 3)));
+}
+
+/** The factor at which the deflection is drawn. */
+export function scaleOf(store: Store): number {
+  const { state, look, machine } = store;
+  if (look.scale > 0 || state === null || state.deflected === null) {
+    return look.scale > 0 ? look.scale : 1;
+  }
+  let most = 0;
+  state.scene.bars.forEach((bar, i) => {
+    const moved = state.deflected?.bars[i];
+    bar.ends_mm.forEach((end, k) => {
+      const to = moved?.ends_mm[k] ?? end;
+      most = Math.max(most, Math.hypot(to[0] - end[0], to[1] - end[1], to[2] - end[2]));
+    });
+  });
+  return most > 0 ? round((0.08 * machine.size_mm) / most) : 1;
+}

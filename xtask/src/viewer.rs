@@ -1,0 +1,54 @@
+//! `cargo xtask viewer`: the page of `kinetostat view`, built from its sources and tried in a browser.
+
+use std::path::Path;
+use std::process::Command;
+
+use anyhow::{Context, Result, bail};
+
+use crate::{cargo, root, step};
+
+/// Builds the page into the repository; `--check` builds it and compares the bytes, then tries it in Chromium.
+///
+/// # Errors
+/// No Node, sources that do not compile, a page that is another one than that of the repository, or one that does not work.
+pub fn run(options: &[&str]) -> Result<()> {
+    let check = match options {
+        [] => false,
+        ["--check"] => true,
+        [other, ..] => bail!("'{other}' is no option of viewer; --check is"),
+    };
+    let crate_ = root().join("crates/kinetostat-view");
+    let (sources, page) = (crate_.join("page"), crate_.join("bundle/index.html"));
+    let before = std::fs::read(&page).with_context(|| page.display().to_string())?;
+    step(
+        "packages of the page",
+        npm(&sources).args(["ci", "--no-audit", "--no-fund"]),
+    )?;
+    step("page of the view", npm(&sources).args(["run", "build"]))?;
+    if !check {
+        return Ok(());
+    }
+    if std::fs::read(&page)? != before {
+        bail!(
+            "bundle/index.html is not what its sources make: commit it after `cargo xtask viewer`"
+        );
+    }
+    step(
+        "command for the page",
+        cargo().args(["build", "--workspace", "--quiet", "--bins"]),
+    )?;
+    let target =
+        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), Into::into);
+    step(
+        "page in a browser",
+        npm(&sources)
+            .args(["test"])
+            .env("KINETOSTAT", target.join("debug/kinetostat")),
+    )
+}
+
+fn npm(folder: &Path) -> Command {
+    let mut command = Command::new("npm");
+    command.current_dir(folder);
+    command
+}
