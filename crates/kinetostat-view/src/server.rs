@@ -38,6 +38,12 @@ pub trait Answers: Send + Sync + 'static {
     /// A question that cannot be asked; that a place cannot be reached is an answer.
     fn state(&self, request: &[u8]) -> Result<String, Refused>;
 
+    /// Vibrations of the machine about a state.
+    ///
+    /// # Errors
+    /// As for [`Answers::state`]; a machine without masses.
+    fn modes(&self, request: &[u8]) -> Result<String, Refused>;
+
     /// The path of the program of the session, if it has one.
     fn path(&self) -> Option<String>;
 }
@@ -141,6 +147,7 @@ fn routes(answers: Arc<dyn Answers>, names: Names) -> Router {
         .route("/api/machine", get(machine))
         .route("/api/path", get(path))
         .route("/api/state", post(state))
+        .route("/api/modes", post(modes))
         .fallback(nothing)
         .layer(DefaultBodyLimit::max(MOST_BYTES))
         .layer(axum::middleware::from_fn(in_time))
@@ -180,15 +187,28 @@ async fn path(State(answers): Session) -> Response {
     }
 }
 
-async fn state(State(answers): Session, body: Result<Bytes, BytesRejection>) -> Response {
-    let body = match body {
-        Ok(body) => body,
+/// The body of a request, or what its sender is told.
+type Body = Result<Bytes, BytesRejection>;
+
+async fn state(State(answers): Session, body: Body) -> Response {
+    asked(body, move |body| answers.state(body)).await
+}
+
+async fn modes(State(answers): Session, body: Body) -> Response {
+    asked(body, move |body| answers.modes(body)).await
+}
+
+async fn asked(
+    body: Body,
+    answer: impl FnOnce(&[u8]) -> Result<String, Refused> + Send + 'static,
+) -> Response {
+    match body {
+        Ok(body) => answered(computed(move || answer(&body)).await),
         Err(reason) => {
             let message = format!("the request cannot be read: {reason}");
-            return problem(reason.status(), &Refused::new("request_refused", message));
+            problem(reason.status(), &Refused::new("request_refused", message))
         }
-    };
-    answered(computed(move || answers.state(&body)).await)
+    }
 }
 
 fn answered(found: Option<Result<String, Refused>>) -> Response {

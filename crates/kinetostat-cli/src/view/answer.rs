@@ -116,6 +116,25 @@ pub(crate) struct LimbLoad {
     pub(crate) share_to_buckling: Option<f64>,
 }
 
+/// Vibrations of a machine about a state.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct ModesOfState {
+    /// Where it stands, under its load.
+    pub(crate) from: Scene,
+    /// The lowest ones.
+    pub(crate) modes: Vec<ModeOfState>,
+}
+
+/// A mode of vibration.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct ModeOfState {
+    pub(crate) frequency_hz: f64,
+    /// `12.3 Hz`, and what is special of it.
+    pub(crate) words: String,
+    /// A little way along its shape: the motion is continued along straight lines.
+    pub(crate) moved: Scene,
+}
+
 /// The path of a program.
 #[derive(Serialize, JsonSchema)]
 pub(crate) struct PathAnswer {

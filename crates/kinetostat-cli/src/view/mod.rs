@@ -4,6 +4,7 @@
 //! one file.
 
 mod answer;
+mod modes;
 mod path;
 mod session;
 mod state;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use kinetostat::{Mechanism, PostureRequest, Wrench};
+use kinetostat::{Mechanism, Posture, PostureRequest, Wrench};
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_model::Model;
 use kinetostat_report::{Placed, Scene};
@@ -18,6 +18,7 @@ use crate::ui::failure::{Answer, Failing, Failure};
 use crate::view::answer::{
     ActuatorRange, Exported, ExportedState, MachineAnswer, StateAnswer, StateRequest,
 };
+use crate::view::modes::modes_of;
 use crate::view::path::ShownPath;
 use crate::view::state::state_of;
 
@@ -72,7 +73,8 @@ impl Session {
         })
     }
 
-    pub(super) fn state_answer(&self, request: &StateRequest) -> Answer<StateAnswer> {
+    /// The machine in a posture that is asked for, and the load on its tool.
+    fn asked(&self, request: &StateRequest) -> Answer<(Posture, Wrench)> {
         let asked = [
             request.actuators.is_some(),
             request.at_mm.is_some(),
@@ -97,7 +99,7 @@ impl Session {
             load("force_n", request.force_n)?,
             load("moment_n_m", request.moment_n_m)?,
         );
-        let (posture, wrench) = if let Some(at) = request.at_mm {
+        Ok(if let Some(at) = request.at_mm {
             let place = PlaceArgs {
                 at: Some(at.to_vec()),
                 ..PlaceArgs::default()
@@ -131,7 +133,11 @@ impl Session {
                 mechanism.posture(PostureRequest::commands(&commands))?,
                 given,
             )
-        };
+        })
+    }
+
+    pub(super) fn state_answer(&self, request: &StateRequest) -> Answer<StateAnswer> {
+        let (posture, wrench) = self.asked(request)?;
         let mut answer = state_of(&posture, &wrench, &self.named);
         if self.program.is_some() {
             // The tool of a job has more words than the options of a single place.
@@ -190,6 +196,11 @@ impl From<Failure> for Refused {
     }
 }
 
+fn read(request: &[u8]) -> Result<StateRequest, Refused> {
+    serde_json::from_slice(request)
+        .map_err(|error| Refused::new("value", format!("the request is not understood: {error}")))
+}
+
 fn json(answer: &impl Serialize) -> Result<String, Refused> {
     serde_json::to_string(answer).map_err(|error| Refused::new("internal", error.to_string()))
 }
@@ -200,10 +211,12 @@ impl Answers for Session {
     }
 
     fn state(&self, request: &[u8]) -> Result<String, Refused> {
-        let request: StateRequest = serde_json::from_slice(request).map_err(|error| {
-            Refused::new("value", format!("the request is not understood: {error}"))
-        })?;
-        json(&self.state_answer(&request)?)
+        json(&self.state_answer(&read(request)?)?)
+    }
+
+    fn modes(&self, request: &[u8]) -> Result<String, Refused> {
+        let (posture, wrench) = self.asked(&read(request)?)?;
+        json(&modes_of(&posture, &wrench)?)
     }
 
     fn path(&self) -> Option<String> {

@@ -63,9 +63,13 @@ impl Served {
     }
 
     fn state(&self, request: &Value) -> (u16, Value) {
+        self.post("state", request)
+    }
+
+    fn post(&self, route: &str, request: &Value) -> (u16, Value) {
         let (host, body) = (&self.host, request.to_string());
         let length = body.len();
-        self.answer(&format!("POST /api/state HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\nContent-Type: application/json\r\nContent-Length: {length}\r\n\r\n{body}"))
+        self.answer(&format!("POST /api/{route} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\nContent-Type: application/json\r\nContent-Length: {length}\r\n\r\n{body}"))
     }
 }
 
@@ -134,6 +138,31 @@ fn a_state_has_the_figures_of_deflect_and_shares() {
     assert!((90.0..=110.0).contains(&sum), "{sum}");
     let bars = |scene: &str| state[scene]["bars"].as_array().map(Vec::len);
     assert_eq!(bars("scene"), bars("deflected"));
+}
+
+#[test]
+fn modes_are_those_of_the_command() {
+    let here = here();
+    let served = Served::of(here.path(), &["heavy_6r"]);
+    let (code, found) = served.post("modes", &json!({}));
+    assert_eq!(code, 200, "{found}");
+    let said = run(here.path(), &["modes", "heavy_6r", "--json"]).answered();
+    let said: Value = serde_json::from_str(&said.out).expect("JSON");
+    let modes = found["modes"].as_array().expect("a list");
+    assert_eq!(modes.len(), 6);
+    for (mode, wanted) in modes.iter().zip(said["modes"].as_array().expect("a list")) {
+        assert_eq!(mode["frequency_hz"], wanted["frequency_hz"]);
+        assert_eq!(
+            mode["moved"]["bars"].as_array().map(Vec::len),
+            found["from"]["bars"].as_array().map(Vec::len)
+        );
+    }
+    let massless = Served::of(here.path(), &["orthoglide"]);
+    let (code, refused) = massless.post("modes", &json!({}));
+    assert_eq!(
+        (code, &refused["error"]["code"]),
+        (422, &json!("model_unsuited"))
+    );
 }
 
 #[test]

@@ -93,6 +93,11 @@ export interface Path {
   headline: string[];
 }
 
+export interface Modes {
+  from: Scene;
+  modes: { frequency_hz: number; words: string; moved: Scene }[];
+}
+
 export interface Exported {
   machine: Machine;
   state: State;
@@ -106,6 +111,8 @@ export interface Source {
   machine(): Promise<Machine>;
   path(): Promise<Path | null>;
   state(request: StateRequest): Promise<State>;
+  /** Vibrations about a state; the lowest first. */
+  modes(request: StateRequest): Promise<Modes>;
   /** The nearest place of a path of which there is a state. */
   nearest(place: number): number;
 }
@@ -132,8 +139,16 @@ class Server implements Source {
   }
 
   async state(request: StateRequest): Promise<State> {
+    return this.post("api/state", request);
+  }
+
+  async modes(request: StateRequest): Promise<Modes> {
+    return this.post("api/modes", request);
+  }
+
+  private async post<T>(route: string, request: StateRequest): Promise<T> {
     const headers = { "content-type": "application/json" };
-    return json(await fetch("api/state", { method: "POST", headers, body: JSON.stringify(request) }));
+    return json(await fetch(route, { method: "POST", headers, body: JSON.stringify(request) }));
   }
 
   nearest(place: number): number {
@@ -156,6 +171,10 @@ class File implements Source {
 
   async state(request: StateRequest): Promise<State> {
     return this.held.states.find((own) => own.place === request.place)?.state ?? this.held.state;
+  }
+
+  async modes(): Promise<Modes> {
+    throw new Error("This file holds no vibrations.");
   }
 
   nearest(place: number): number {

@@ -119,7 +119,7 @@ export class Panel {
       section(
         "Drawing",
         element("div", { class: "joint" }, element("span", {}, "Deflection"), this.scale, button("Round", () => store.draw({ scale: 0 }), "A round factor that shows it")),
-        element("div", { class: "row" }, this.check("Swing", "swing"), this.check("Names", "names"), this.check("Ellipsoid of displacements", "ellipsoid"), this.check("of turns", "rotary")),
+        element("div", { class: "row" }, this.swing(), this.check("Names", "names"), this.check("Ellipsoid of displacements", "ellipsoid"), this.check("of turns", "rotary")),
         this.colours(),
         this.legend,
       ),
@@ -130,7 +130,16 @@ export class Panel {
     );
   }
 
-  private check(words: string, key: "swing" | "names" | "ellipsoid" | "rotary"): HTMLElement {
+  private swing(): HTMLElement {
+    const words = ["nothing", "the deflection", ...[1, 2, 3, 4, 5, 6].map((mode) => `mode ${mode}`)];
+    const list = this.store.source.live ? words : words.slice(0, 2);
+    const select = element("select", {}, ...list.map((text, i) => element("option", { value: String(i - 1) }, text)));
+    select.value = String(this.store.look.swing ?? -1);
+    select.addEventListener("change", () => this.store.draw({ swing: select.value === "-1" ? null : Number(select.value) }));
+    return element("label", { class: "row" }, "Swing", select);
+  }
+
+  private check(words: string, key: "names" | "ellipsoid" | "rotary"): HTMLElement {
     const box = element("input", { type: "checkbox" });
     box.checked = this.store.look[key];
     box.addEventListener("change", () => this.store.draw({ [key]: box.checked }));

@@ -100,18 +100,19 @@ export class Stage {
     this.overdraw(1);
     this.words(state);
     const factor = scaleOf(this.store);
-    const bent = state.deflected === null ? "" : `Deflection drawn ${shown(factor)} times larger. `;
+    const mode = look.swing ? this.store.modes?.modes[look.swing - 1] : undefined;
+    const bent = mode ? `Mode ${look.swing}, ${mode.words}; its size is free. ` : state.deflected === null ? "" : `Deflection drawn ${shown(factor)} times larger. `;
     this.isOld = true;
     this.note.textContent = `${bent}Squares of ${shown(step(this.box()))} mm`;
   }
 
   /** The deflected machine, at a share of the factor. */
   private overdraw(share: number): void {
-    const { state } = this.store;
+    const motion = this.store.motion();
     dispose(this.over);
     this.over = new three.Group();
-    if (state?.deflected) {
-      this.over = deflected(state.scene, state.deflected, share * scaleOf(this.store), this.theme());
+    if (motion !== null) {
+      this.over = deflected(motion.from, motion.to, share * scaleOf(this.store), this.theme());
       this.scene.add(this.over);
     }
   }
@@ -160,8 +161,7 @@ export class Stage {
   }
 
   private frame(): void {
-    const { look, state } = this.store;
-    if (look.swing && state?.deflected && !window.matchMedia("(prefers-reduced-motion: reduce)").matches) {
+    if (this.store.look.swing !== null && !window.matchMedia("(prefers-reduced-motion: reduce)").matches) {
       this.overdraw(Math.sin((performance.now() - this.started) / 400));
       this.isOld = true;
     }

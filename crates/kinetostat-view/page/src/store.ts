@@ -1,6 +1,6 @@
 // What is shown: the state that is asked for, its answer, and how it is drawn. All of it stands in the address of the page.
 
-import type { Machine, Path, Source, State, StateRequest } from "./api";
+import type { Machine, Modes, Path, Scene, Source, State, StateRequest } from "./api";
 
 export type Colours = "none" | "share" | "load" | "buckling";
 
@@ -12,7 +12,8 @@ export interface Look {
   rotary: boolean;
   colours: Colours;
   names: boolean;
-  swing: boolean;
+  /** What swings: nothing, the deflection, or a mode by its number from 1. */
+  swing: number | null;
   compensated: boolean;
   dark: boolean | null;
 }
@@ -25,11 +26,13 @@ export class Store {
     rotary: false,
     colours: "none",
     names: true,
-    swing: false,
+    swing: null,
     compensated: false,
     dark: null,
   };
   state: State | null = null;
+  /** Vibrations about the state; none until they are asked for. */
+  modes: Modes | null = null;
   error: string | null = null;
   private readonly listeners: (() => void)[] = [];
   private asking = false;
@@ -67,7 +70,20 @@ export class Store {
 
   draw(look: Partial<Look>): void {
     this.look = { ...this.look, ...look };
+    if (this.look.swing && this.modes === null) {
+      void this.ask();
+    }
     this.changed();
+  }
+
+  /** The motion that is drawn: from the machine as commanded to its equilibrium, or along a mode. */
+  motion(): { from: Scene; to: Scene } | null {
+    const mode = this.look.swing ? this.modes?.modes[this.look.swing - 1] : undefined;
+    if (mode !== undefined && this.modes !== null) {
+      return { from: this.modes.from, to: mode.moved };
+    }
+    const { state } = this;
+    return state?.deflected ? { from: state.scene, to: state.deflected } : null;
   }
 
   /** One request is under way at a time, and the latest one waits: whoever drags is never behind. */
@@ -81,6 +97,7 @@ export class Store {
       this.waiting = false;
       try {
         this.state = await this.source.state(this.request);
+        this.modes = this.look.swing ? await this.source.modes(this.request) : null;
         this.error = null;
       } catch (error) {
         this.error = error instanceof TypeError ? "The server does not answer: is the command still running?" : String((error as Error).message);
@@ -144,13 +161,15 @@ export function shown(x: number): string {
 
 /** The factor at which the deflection is drawn. */
 export function scaleOf(store: Store): number {
-  const { state, look, machine } = store;
-  if (look.scale > 0 || state === null || state.deflected === null) {
+  const { look, machine } = store;
+  const motion = store.motion();
+  // A mode has no size of its own.
+  if (motion === null || (look.scale > 0 && !look.swing)) {
     return look.scale > 0 ? look.scale : 1;
   }
   let most = 0;
-  state.scene.bars.forEach((bar, i) => {
-    const moved = state.deflected?.bars[i];
+  motion.from.bars.forEach((bar, i) => {
+    const moved = motion.to.bars[i];
     bar.ends_mm.forEach((end, k) => {
       const to = moved?.ends_mm[k] ?? end;
       most = Math.max(most, Math.hypot(to[0] - end[0], to[1] - end[1], to[2] - end[2]));

@@ -104,6 +104,17 @@ test("the tool and the force are dragged, and the page is quiet about it", async
   assert.deepEqual(page.wrong, []);
 });
 
+test("modes swing, and a machine without masses says why it has none", async () => {
+  const page = await opened(await served("heavy_6r"));
+  await page.getByLabel("Swing").selectOption("2");
+  const said = JSON.parse(spawnSync(command, ["modes", "heavy_6r", "--json"], { encoding: "utf8" }).stdout);
+  await page.locator(".scale", { hasText: `Mode 2, ${said.modes[1].frequency_hz.toPrecision(4)} Hz` }).waitFor();
+  const without = await opened(await served("orthoglide"));
+  await without.getByLabel("Swing").selectOption("1");
+  await without.locator(".finding", { hasText: "no mass" }).waitFor();
+  assert.deepEqual(page.wrong, []);
+});
+
 test("a place out of reach is said, and the page goes on", async () => {
   const page = await opened(await served("orthoglide"));
   await page.getByLabel("Tool x, mm").fill("2000");

@@ -24,6 +24,10 @@ impl Answers for Echo {
         }
     }
 
+    fn modes(&self, request: &[u8]) -> Result<String, Refused> {
+        self.state(request)
+    }
+
     fn path(&self) -> Option<String> {
         None
     }
