@@ -49,6 +49,7 @@ pub fn run(options: &[&str]) -> Result<()> {
 
 fn npm(folder: &Path) -> Command {
     let mut command = Command::new("npm");
-    command.current_dir(folder);
+    // Steps run from the root.
+    command.arg("--prefix").arg(folder);
     command
 }
