@@ -60,7 +60,7 @@ impl Body {
                     limb.actual
                         .nodes()
                         .iter()
-                        .map(|node| named(mechanism, &limb.name, node))
+                        .map(|node| written(mechanism, &limb.name, node))
                 });
                 let known: Vec<String> = known.collect();
                 Err(match known.is_empty() {
@@ -89,7 +89,7 @@ impl Body {
 }
 
 /// Name of a node as a table has it.
-fn named(mechanism: &Mechanism, limb: &str, node: &str) -> String {
+fn written(mechanism: &Mechanism, limb: &str, node: &str) -> String {
     match mechanism.limbs().len() {
         1 => node.to_owned(),
         _ => format!("{limb}:{node}"),

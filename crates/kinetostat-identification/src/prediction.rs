@@ -22,7 +22,7 @@ use kinetostat::{Mechanism, MechanismEquilibrium, Pose, Posture, PostureRequest}
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3, Vector6};
 use rayon::prelude::*;
 
-use crate::body::{BodyPoint, PlacedBody};
+use crate::body::{Body, BodyPoint, PlacedBody};
 use crate::change::Change;
 use crate::error::IdentificationError;
 use crate::experiment::{Observation, Reading, ReadingOf};
@@ -113,7 +113,7 @@ pub(crate) struct Machine<'a> {
     pub places: Vec<Vector3<f64>>,
 }
 
-/// The body of a reading in an equilibrium.
+/// A body that is read, in an equilibrium.
 #[derive(Clone)]
 struct ReadBody {
     pose: Pose,
@@ -249,7 +249,20 @@ impl Machine<'_> {
         observation: &Observation,
     ) -> Result<Prediction, IdentificationError> {
         let readings = &observation.readings;
-        let under = self.reached(observation)?;
+        let mut bodies: Vec<Body> = Vec::new();
+        let of_readings = readings.iter().map(|reading| {
+            let on = reading.marker.on;
+            bodies
+                .iter()
+                .position(|body| *body == on)
+                .unwrap_or_else(|| {
+                    bodies.push(on);
+                    bodies.len() - 1
+                })
+        });
+        // Index of the body of every reading.
+        let body: Vec<usize> = of_readings.collect();
+        let under = self.reached(observation, &bodies)?;
         // Only displacements and turns are differences.
         let rest = match readings.iter().all(Reading::is_place) {
             true => under.clone(),
@@ -257,7 +270,7 @@ impl Machine<'_> {
                 let mut unloaded = observation.clone();
                 unloaded.load.force.fill(0.0);
                 unloaded.load.moment.fill(0.0);
-                self.reached(&unloaded)?
+                self.reached(&unloaded, &bodies)?
             }
         };
         let load = &observation.load;
@@ -266,10 +279,13 @@ impl Machine<'_> {
             .map(|r| load.arm_to(r.marker.on, self.place_of(r)));
         let arms: Vec<Vector3<f64>> = arms.collect();
         let place = |at: &[ReadBody], i: usize| {
-            at[i].pose.rotation * arms[i] + at[i].pose.translation.vector
+            let pose = &at[body[i]].pose;
+            pose.rotation * arms[i] + pose.translation.vector
         };
-        let turn =
-            |i: usize| (under[i].pose.rotation * rest[i].pose.rotation.inverse()).scaled_axis();
+        let turn = |i: usize| {
+            let [under, rest] = [&under, &rest].map(|at| at[body[i]].pose.rotation);
+            (under * rest.inverse()).scaled_axis()
+        };
         let values = readings
             .iter()
             .enumerate()
@@ -280,16 +296,17 @@ impl Machine<'_> {
             });
         let values = DVector::from_iterator(readings.len(), values);
         let moved = |at: &[ReadBody], i: usize, column: usize| {
-            let rotation = at[i].pose.rotation;
+            let own = &at[body[i]];
+            let rotation = own.pose.rotation;
             match self.changes[column] {
                 Change::Marker(marker, k) if self.markers[marker] == readings[i].marker => {
                     rotation * Vector3::ith(k, 1.0)
                 }
-                _ => twist_at(&at[i].motions[column], &(rotation * arms[i])),
+                _ => twist_at(&own.motions[column], &(rotation * arms[i])),
             }
         };
         let derivatives = DMatrix::from_fn(readings.len(), self.changes.len(), |i, column| {
-            let turned = |at: &[ReadBody]| angular(&at[i].motions[column]);
+            let turned = |at: &[ReadBody]| angular(&at[body[i]].motions[column]);
             match readings[i].of {
                 ReadingOf::Along(n) => n.dot(&(moved(&under, i, column) - moved(&rest, i, column))),
                 ReadingOf::About(n) => {
@@ -305,20 +322,24 @@ impl Machine<'_> {
         })
     }
 
-    /// The body of every reading, in the equilibrium under the load of an observation.
-    fn reached(&self, observation: &Observation) -> Result<Vec<ReadBody>, IdentificationError> {
+    /// Bodies in the equilibrium under the load of an observation.
+    fn reached(
+        &self,
+        observation: &Observation,
+        bodies: &[Body],
+    ) -> Result<Vec<ReadBody>, IdentificationError> {
         let machine = |reason| observation.refused(reason);
         let posture = posture_of(&self.mechanism, observation)?;
         let at = posture
             .deflected_by(&observation.load.on_tool())
             .map_err(machine)?;
-        let place = |reading: &Reading| PlacedBody::of(reading.marker.on, &posture, &at.state);
-        let bodies: Vec<PlacedBody> = observation.readings.iter().map(place).collect();
+        let place = |body: &Body| PlacedBody::of(*body, &posture, &at.state);
+        let placed: Vec<PlacedBody> = bodies.iter().map(place).collect();
         let still = |body: &PlacedBody| ReadBody {
             pose: body.pose,
             motions: vec![Vector6::zeros(); self.changes.len()],
         };
-        let mut read: Vec<ReadBody> = bodies.iter().map(still).collect();
+        let mut read: Vec<ReadBody> = placed.iter().map(still).collect();
         let mut tangent = posture.linearised(&at).map_err(machine)?;
         let zero = no_residual(&posture, &at.state).map_err(machine)?;
         for (column, change) in self.changes.iter().enumerate() {
@@ -334,8 +355,8 @@ impl Machine<'_> {
                 Change::Machine { more, less, step } => {
                     let more = posture_of(more, observation)?;
                     let less = posture_of(less, observation)?;
-                    for (own, reading) in read.iter_mut().zip(&observation.readings) {
-                        let of = |p: &Posture| PlacedBody::of(reading.marker.on, p, &at.state).pose;
+                    for (own, body) in read.iter_mut().zip(bodies) {
+                        let of = |p: &Posture| PlacedBody::of(*body, p, &at.state).pose;
                         own.motions[column] = pose_residual(&of(&more), &of(&less)).0 / *step;
                     }
                     let of = |p: &Posture| p.residual_at(&at.state, &at.wrench).map_err(machine);
@@ -345,7 +366,7 @@ impl Machine<'_> {
             };
             let motion = tangent.removing(&residual);
             let motion = motion.ok_or_else(|| observation.free())?;
-            for (own, body) in read.iter_mut().zip(&bodies) {
+            for (own, body) in read.iter_mut().zip(&placed) {
                 own.motions[column] += body.twist(&motion);
             }
         }

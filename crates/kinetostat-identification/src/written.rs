@@ -37,7 +37,10 @@ pub fn identified_model(
     let (errors, others): (Vec<_>, Vec<_>) = edits.partition(|e| e.path.starts_with(DEVIATION));
     let model = model.edited(&others)?;
     let (model, errors) = match model.document.deviation.is_empty() {
-        true => (model.clone(), deviations(&model, &errors)),
+        true => {
+            let added = deviations(&model, &errors);
+            (model, added)
+        }
         false => (model.edited(&errors)?, String::new()),
     };
     let text = format!(
