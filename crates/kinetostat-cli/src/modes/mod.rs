@@ -22,8 +22,8 @@ use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::number;
 use crate::ui::result_form::ResultForm;
 use crate::vibration::pair::{frequency_hz, growth_per_s};
-use crate::vibration::subject;
 use crate::vibration::subject::refused;
+use crate::vibration::{small_step, subject};
 
 /// Results that the command gives as JSON.
 pub(crate) const RESULTS: &[ResultForm] =
@@ -58,8 +58,6 @@ const MOST: usize = 6;
 /// Size of a drawn phase, px.
 const WIDTH: usize = 560;
 const HEIGHT: usize = 470;
-/// Largest motion of a part with a straight path, times the natural length.
-const SMALL: f64 = 1e-6;
 
 /// A mode or a complex pair as it is drawn.
 struct Drawn {
@@ -178,8 +176,7 @@ fn phase(
     column: usize,
 ) -> String {
     // Both phases are drawn with the same step.
-    let most = mode.phases[0].shape.amax();
-    let step = SMALL / if most > 0.0 { most } else { 1.0 };
+    let step = small_step(&mode.phases[0]);
     let from = Placed::solved(posture, &machine.equilibrium.state);
     let to = Placed::solved(
         posture,

@@ -7,21 +7,18 @@ use kinetostat_report::{Placed, Scene};
 
 use crate::ui::failure::Answer;
 use crate::ui::numbers::number;
+use crate::vibration::small_step;
 use crate::vibration::subject::refused;
 use crate::view::answer::{ModeOfState, ModesOfState};
 
 /// Modes that are shown.
 const MOST: usize = 6;
-/// Largest motion of a part with a straight path, times the natural length.
-const SMALL: f64 = 1e-6;
 
 pub(super) fn modes_of(posture: &Posture, wrench: &Wrench) -> Answer<ModesOfState> {
     let machine = VibratingMachine::at(posture, wrench, &Held::nothing()).map_err(refused)?;
     let mechanism = posture.mechanism();
     let modes = machine.modes.modes.iter().take(MOST).map(|mode| {
-        let most = mode.shape.amax();
-        let step = SMALL / if most > 0.0 { most } else { 1.0 };
-        let moved = Placed::solved(posture, &machine.moved_in(posture, mode, step));
+        let moved = machine.moved_in(posture, mode, small_step(mode));
         let kind = match mode.kind {
             ModeKind::Free => ", free",
             ModeKind::Unstable => ", unstable",
@@ -30,7 +27,7 @@ pub(super) fn modes_of(posture: &Posture, wrench: &Wrench) -> Answer<ModesOfStat
         ModeOfState {
             frequency_hz: mode.frequency_hz(),
             words: format!("{} Hz{kind}", number(mode.frequency_hz(), 4)),
-            moved: Scene::of(mechanism, &moved),
+            moved: Scene::of(mechanism, &Placed::solved(posture, &moved)),
         }
     });
     Ok(ModesOfState {
