@@ -3,7 +3,7 @@
 //! ```text
 //! page     the page as one file, alone or with results in it
 //! server   routes: the page, and the JSON of an implementation of Answers
-//! guard    who may ask: this computer, from this page, in bounded size and time; refused: how others are told
+//! guard    who may ask: this computer, from this page, in bounded size and time; refused: the answer to others
 //! ```
 //!
 //! No file is served and none is read: the page is part of the program, so that there is no path to climb out of.

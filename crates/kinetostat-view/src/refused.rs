@@ -1,4 +1,4 @@
-//! What is refused, and how the page is told.
+//! Refusals, and their form for the page.
 
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};

@@ -121,7 +121,7 @@ async fn accept(listener: std::net::TcpListener, app: Router) -> io::Result<()> 
         let Ok(place) = places.clone().acquire_owned().await else {
             return Ok(());
         };
-        // A connection that ends before it is taken is none; with too many open files one waits for others to end.
+        // The connection may have ended already; with too many open files, others have to end first.
         let Ok((stream, _)) = listener.accept().await else {
             tokio::time::sleep(Duration::from_millis(20)).await;
             continue;
@@ -187,7 +187,7 @@ async fn path(State(answers): Session) -> Response {
     }
 }
 
-/// The body of a request, or what its sender is told.
+/// The body of a request, or the reason why it cannot be read.
 type Body = Result<Bytes, BytesRejection>;
 
 async fn state(State(answers): Session, body: Body) -> Response {

@@ -12,6 +12,7 @@ pub(crate) mod outputs;
 pub(crate) mod paper;
 pub(crate) mod path_vtk;
 #[cfg(feature = "parquet")]
+pub(crate) mod places;
 mod points_columns;
 pub(crate) mod points_parquet;
 pub(crate) mod points_table;

@@ -1,4 +1,4 @@
-//! What the page asks and is told, stable names with units.
+//! Requests and answers of the page, stable names with units.
 
 use kinetostat_report::{Scene, ShownPose};
 use schemars::JsonSchema;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub(crate) struct MachineAnswer {
     pub(crate) name: String,
     pub(crate) description: Option<String>,
-    /// As named on the command line.
+    /// Name on the command line: a preset, a model file, or a job file.
     pub(crate) source: String,
     pub(crate) actuators: Vec<ActuatorRange>,
     pub(crate) limbs: Vec<String>,
@@ -21,7 +21,7 @@ pub(crate) struct MachineAnswer {
     pub(crate) version: &'static str,
 }
 
-/// How far an actuator goes.
+/// Range of an actuator.
 #[derive(Serialize, JsonSchema)]
 pub(crate) struct ActuatorRange {
     pub(crate) name: String,
@@ -71,7 +71,7 @@ pub(crate) struct StateAnswer {
     pub(crate) shares: Vec<ShareOfPart>,
     pub(crate) stable: Option<bool>,
     pub(crate) limb_loads: Vec<LimbLoad>,
-    /// Why there is no equilibrium.
+    /// Reason why there is no equilibrium.
     pub(crate) finding: Option<String>,
     /// The command that says the same.
     pub(crate) cli: String,
@@ -108,7 +108,7 @@ pub(crate) struct ShareOfPart {
     pub(crate) percent: f64,
 }
 
-/// What the platform puts on a limb.
+/// Load of the platform on a limb.
 #[derive(Serialize, JsonSchema)]
 pub(crate) struct LimbLoad {
     pub(crate) limb: String,
@@ -119,7 +119,7 @@ pub(crate) struct LimbLoad {
 /// Vibrations of a machine about a state.
 #[derive(Serialize, JsonSchema)]
 pub(crate) struct ModesOfState {
-    /// Where it stands, under its load.
+    /// The machine in its equilibrium under the load.
     pub(crate) from: Scene,
     /// The lowest ones.
     pub(crate) modes: Vec<ModeOfState>,
@@ -136,33 +136,31 @@ pub(crate) struct ModeOfState {
 }
 
 /// The path of a program.
-#[derive(Serialize, JsonSchema)]
+#[derive(Clone, Serialize, JsonSchema)]
 pub(crate) struct PathAnswer {
     pub(crate) program: String,
     pub(crate) text: String,
     pub(crate) places: Vec<PlaceOnPath>,
-    pub(crate) tolerance_mm: Option<f64>,
+    pub(crate) tolerance_mm: f64,
     pub(crate) headline: Vec<String>,
 }
 
 /// A place of the path.
-#[derive(Serialize, JsonSchema)]
+#[derive(Clone, Serialize, JsonSchema)]
 pub(crate) struct PlaceOnPath {
     /// Line of the program, from 1.
     pub(crate) line: usize,
     pub(crate) path_mm: f64,
-    /// Time since the beginning, s; null where no feed says it.
-    pub(crate) time_s: Option<f64>,
     /// Base axes.
     pub(crate) position_mm: [f64; 3],
     /// Base axes.
     pub(crate) force_n: [f64; 3],
     pub(crate) error_before_mm: f64,
     /// Error with the compensated program.
-    pub(crate) error_after_mm: Option<f64>,
+    pub(crate) error_after_mm: f64,
 }
 
-/// What a page without a server holds.
+/// Content of a page without a server.
 #[derive(Serialize, JsonSchema)]
 pub(crate) struct Exported {
     pub(crate) machine: MachineAnswer,

@@ -121,8 +121,8 @@ impl Session {
                 .and_then(|program| program.places.get(index));
             let place = place
                 .ok_or_else(|| ErrorCode::Value.failure(format!("there is no place {index}")))?;
-            let moved = mechanism.with_tool(&place.tip);
-            let request = PostureRequest::commands(&place.commands);
+            let moved = mechanism.with_tool(&place.standing.tip);
+            let request = PostureRequest::commands(&place.standing.commands);
             (moved.posture(request)?, place.wrench)
         } else {
             let commands = match &request.actuators {
@@ -164,7 +164,7 @@ impl Session {
         Ok(Exported {
             machine: self.machine_answer()?,
             state: self.state_answer(request)?,
-            path: self.program.as_ref().map(|program| program.answer()),
+            path: self.program.as_ref().map(|program| program.answer.clone()),
             states: (0..places).step_by(step).map(at).collect::<Answer<_>>()?,
         })
     }
@@ -221,6 +221,6 @@ impl Answers for Session {
 
     fn path(&self) -> Option<String> {
         let program = self.program.as_ref()?;
-        json(&program.answer()).ok()
+        json(&program.answer).ok()
     }
 }

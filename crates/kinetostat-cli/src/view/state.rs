@@ -1,12 +1,11 @@
 //! A machine in a state under a load, as the page shows it.
 
 use kinetostat::chain::CartesianCompliance;
-use kinetostat::{MechanismEquilibrium, Posture, Wrench};
+use kinetostat::{MechanismEquilibrium, MotionKind, Posture, Wrench};
 use kinetostat_analysis::shares::Shares;
 use kinetostat_report::{Placed, Scene};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector3, Vector6};
 
-use crate::machine::units::unit;
 use crate::place::joints;
 use crate::ui::numbers::{fixed, number, triple};
 use crate::view::answer::{
@@ -47,11 +46,11 @@ pub(super) fn state_of(posture: &Posture, wrench: &Wrench, named: &str) -> State
         displacement_by_load_mm: moved.map(|(_, by_load)| by_load.into()),
         turn_mrad: loaded.map(|found| (found.displacement.angular() * 1e3).into()),
         compliance: compliance.as_ref().and_then(|c| {
-            let (axes, um_per_n) = principal(c, false, 1e6)?;
+            let (axes, um_per_n) = principal(c, 0)?;
             Some(Compliance { axes, um_per_n })
         }),
         rotary_compliance: compliance.as_ref().and_then(|c| {
-            let (axes, urad_per_n_m) = principal(c, true, 1e6)?;
+            let (axes, urad_per_n_m) = principal(c, 3)?;
             Some(RotaryCompliance { axes, urad_per_n_m })
         }),
         shares: loaded.map_or_else(Vec::new, |found| shares(posture, found, wrench)),
@@ -86,34 +85,19 @@ fn limb_loads(found: &MechanismEquilibrium) -> Vec<LimbLoad> {
     each.collect()
 }
 
-/// Principal axes of a block of the compliance, and its values there in `unit` of them; none if a direction is free.
-fn principal(
-    compliance: &CartesianCompliance,
-    turns: bool,
-    unit: f64,
-) -> Option<(Vec<[f64; 3]>, Vec<f64>)> {
+/// Principal axes of a block of the compliance, and its values there in millionths; none if a direction is free. The block begins with
+/// direction `first`: 0 for displacements by forces, 3 for turns by moments.
+fn principal(compliance: &CartesianCompliance, first: usize) -> Option<(Vec<[f64; 3]>, Vec<f64>)> {
     let mut block = Matrix3::zeros();
     for k in 0..3 {
-        let along = Vector3::ith(k, 1.0);
-        let (none, pushed) = (Vector3::zeros(), along);
-        let load = if turns {
-            Wrench::new(none, pushed)
-        } else {
-            Wrench::new(pushed, none)
-        };
-        let twist = compliance.twist_under(&load)?;
-        let part = if turns {
-            twist.angular()
-        } else {
-            twist.linear()
-        };
-        block.set_column(k, &part);
+        let twist = compliance.twist_under(&Wrench(Vector6::ith(first + k, 1.0)))?;
+        block.set_column(k, &twist.0.fixed_rows::<3>(first));
     }
     let eigen = (0.5 * (block + block.transpose())).symmetric_eigen();
     let mut order = [0, 1, 2];
     order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
     let axes = order.map(|k| eigen.eigenvectors.column(k).into_owned().into());
-    let values = order.map(|k| unit * eigen.eigenvalues[k]);
+    let values = order.map(|k| 1e6 * eigen.eigenvalues[k]);
     Some((axes.into(), values.into()))
 }
 
@@ -122,59 +106,50 @@ fn figures(
     loaded: &MechanismEquilibrium,
     rest: &MechanismEquilibrium,
 ) -> Vec<Figure> {
-    let mm = |v: Vector3<f64>| Figure {
-        label: String::new(),
-        value: format!("{} mm", number(1e3 * v.norm(), 4)),
-        detail: Some(format!("{} mm", triple((v * 1e3).into(), |x| fixed(x, 4)))),
-    };
-    let of = |label: &str, figure: Figure| Figure {
+    let figure = |label: &str, value: String| Figure {
         label: label.to_owned(),
-        ..figure
+        value,
+        detail: None,
+    };
+    // A vector by its size, with its components; both in thousandths.
+    let sized = |label: &str, v: Vector3<f64>, digits: i32, unit: &str| Figure {
+        detail: Some(format!(
+            "{} {unit}",
+            triple((v * 1e3).into(), |x| fixed(x, 4))
+        )),
+        ..figure(label, format!("{} {unit}", number(1e3 * v.norm(), digits)))
     };
     let (all, without) = (loaded.displacement.linear(), rest.displacement.linear());
-    let turn = loaded.displacement.angular();
-    let mut found = vec![of("Displacement of the tool", mm(all))];
+    let mut found = vec![sized("Displacement of the tool", all, 4, "mm")];
     // Of a machine without weight, what is left is rounding.
     if without.norm() > 1e-12 {
         if loaded.wrench.0.norm() > 0.0 {
-            found.push(of("by the load", mm(all - without)));
+            found.push(sized("by the load", all - without, 4, "mm"));
         }
-        found.push(of("without it: weight, deviations", mm(without)));
+        found.push(sized("without it: weight, deviations", without, 4, "mm"));
     }
-    found.push(Figure {
-        label: "Turn of the tool".to_owned(),
-        value: format!("{} mrad", number(1e3 * turn.norm(), 3)),
-        detail: Some(format!(
-            "{} mrad",
-            triple((turn * 1e3).into(), |x| fixed(x, 4))
-        )),
-    });
+    let turn = loaded.displacement.angular();
+    found.push(sized("Turn of the tool", turn, 3, "mrad"));
     let softest = 1e-3 * loaded.stiffness_against_force();
-    found.push(Figure {
-        label: "Softest against a force".to_owned(),
-        value: match softest.is_finite() {
-            true => format!("{} N/mm", number(softest, 4)),
-            false => "rigid".to_owned(),
-        },
-        detail: None,
-    });
-    found.push(Figure {
-        label: "Stable".to_owned(),
-        value: if loaded.stable() { "yes" } else { "no" }.to_owned(),
-        detail: None,
-    });
+    let softest = match softest.is_finite() {
+        true => format!("{} N/mm", number(softest, 4)),
+        false => "rigid".to_owned(),
+    };
+    found.push(figure("Softest against a force", softest));
+    let stable = if loaded.stable() { "yes" } else { "no" };
+    found.push(figure("Stable", stable.to_owned()));
     let mechanism = posture.mechanism();
-    let drives = mechanism
-        .actuator_names()
-        .into_iter()
-        .zip(joints::kinds(mechanism));
+    let kinds = joints::kinds(mechanism).into_iter();
+    let drives = mechanism.actuator_names().into_iter().zip(kinds);
     for ((name, kind), force) in drives.zip(loaded.actuator_forces()) {
-        let unit = if unit(kind).0 == "mm" { "N" } else { "N m" };
-        found.push(Figure {
-            label: format!("Drive {name}"),
-            value: format!("{} {unit}", number(force, 4)),
-            detail: None,
-        });
+        let unit = match kind {
+            MotionKind::Prismatic => "N",
+            MotionKind::Revolute => "N m",
+        };
+        found.push(figure(
+            &format!("Drive {name}"),
+            format!("{} {unit}", number(force, 4)),
+        ));
     }
     found
 }

@@ -1,4 +1,4 @@
-//! `view`: what the page is told is what the other commands say.
+//! `view`: the page gets the same figures as the other commands give.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;

@@ -78,18 +78,17 @@ export interface State {
 export interface Place {
   line: number;
   path_mm: number;
-  time_s: number | null;
   position_mm: Vec3;
   force_n: Vec3;
   error_before_mm: number;
-  error_after_mm: number | null;
+  error_after_mm: number;
 }
 
 export interface Path {
   program: string;
   text: string;
   places: Place[];
-  tolerance_mm: number | null;
+  tolerance_mm: number;
   headline: string[];
 }
 

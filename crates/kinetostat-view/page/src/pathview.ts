@@ -6,7 +6,7 @@ import "uplot/dist/uPlot.min.css";
 
 import type { Path, Place } from "./api";
 import { RAMP, byShare } from "./colour";
-import { vector } from "./machine3d";
+import { dispose, vector } from "./machine3d";
 import { button, element } from "./panel";
 import type { Stage } from "./stage";
 import { shown, type Store } from "./store";
@@ -28,6 +28,8 @@ export class PathView {
   private readonly marker = new three.Mesh(new three.SphereGeometry(1, 16, 12), new three.MeshBasicMaterial());
   private readonly chart: uPlot;
   private line: three.Object3D | null = null;
+  /** The error by which the path is coloured now. */
+  private coloured: boolean | null = null;
   private timer = 0;
 
   constructor(
@@ -102,7 +104,7 @@ export class PathView {
   }
 
   private error(place: Place): number {
-    return this.store.look.compensated ? (place.error_after_mm ?? 0) : place.error_before_mm;
+    return this.store.look.compensated ? place.error_after_mm : place.error_before_mm;
   }
 
   private worst(): number {
@@ -125,25 +127,37 @@ export class PathView {
     this.play.textContent = this.timer === 0 ? "Play" : "Stop";
   }
 
-  /** Draws the path anew, and the place that is shown. */
+  /** The path in space, made anew only where it is coloured by the other error. */
+  private colour(most: number): void {
+    if (this.coloured === this.store.look.compensated) {
+      return;
+    }
+    this.coloured = this.store.look.compensated;
+    if (this.line !== null) {
+      dispose(this.line);
+    }
+    const { places } = this.path;
+    const geometry = new three.BufferGeometry().setFromPoints(places.map((place) => vector(place.position_mm)));
+    const colours = places.flatMap((place) => new three.Color(byShare(this.error(place) / most)).toArray());
+    geometry.setAttribute("color", new three.Float32BufferAttribute(colours, 3));
+    this.line = new three.Line(geometry, new three.LineBasicMaterial({ vertexColors: true, linewidth: 2 }));
+    this.stage.extra.add(this.line);
+  }
+
+  /** Shows the path, and the place that is asked for. */
   show(): void {
     this.chart.redraw(false);
     const { places, tolerance_mm } = this.path;
     const size = this.store.machine.size_mm;
     const most = places.reduce((sum, place) => Math.max(sum, this.error(place)), 1e-12);
     this.most.textContent = `${shown(most)} mm`;
-    this.line?.removeFromParent();
-    const geometry = new three.BufferGeometry().setFromPoints(places.map((place) => vector(place.position_mm)));
-    const colours = places.flatMap((place) => new three.Color(byShare(this.error(place) / most)).toArray());
-    geometry.setAttribute("color", new three.Float32BufferAttribute(colours, 3));
-    this.line = new three.Line(geometry, new three.LineBasicMaterial({ vertexColors: true, linewidth: 2 }));
-    this.stage.extra.add(this.line);
+    this.colour(most);
     const index = this.store.request.place ?? null;
     const place = index === null ? undefined : places[index];
     this.marker.visible = place !== undefined;
     const kind = this.store.look.compensated ? "compensated" : "as programmed";
     if (place === undefined || index === null) {
-      this.said.textContent = `up to ${shown(most)} mm ${kind}${tolerance_mm === null ? "" : `, tolerance ${shown(tolerance_mm)} mm`}`;
+      this.said.textContent = `up to ${shown(most)} mm ${kind}, tolerance ${shown(tolerance_mm)} mm`;
       this.window(0, -1);
       return;
     }
@@ -151,7 +165,7 @@ export class PathView {
     this.marker.scale.setScalar(0.008 * size);
     (this.marker.material as three.MeshBasicMaterial).color.set(byShare(this.error(place) / most));
     this.slider.value = String(index);
-    this.said.textContent = `line ${place.line}, ${shown(place.path_mm)} mm along: ${shown(place.error_before_mm)} mm off as programmed, ${shown(place.error_after_mm ?? 0)} mm compensated`;
+    this.said.textContent = `line ${place.line}, ${shown(place.path_mm)} mm along: ${shown(place.error_before_mm)} mm off as programmed, ${shown(place.error_after_mm)} mm compensated`;
     this.chart.setCursor({ left: this.chart.valToPos(place.path_mm, "x"), top: 10 });
     this.window(place.line - 1, place.line - 1);
   }

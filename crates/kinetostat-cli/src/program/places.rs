@@ -1,0 +1,92 @@
+//! A run along the program of a job for its places: where the machine stands at each of them. Nothing is written.
+
+use std::path::Path;
+
+use kinetostat::{Mechanism, Pose, PostureRequest};
+use kinetostat_machining::{ProgramPlace, Run, Task, analyse, compensate_program};
+use kinetostat_model::Model;
+
+use crate::files::input_files::InputFiles;
+use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::job_file::JobFile;
+use crate::job::machine::MachineSetup;
+use crate::job::of_model::machine_of;
+use crate::job::program::read_program;
+use crate::job::setting::{Setting, setting};
+use crate::machine::units::unit_of;
+use crate::program::aim::Aim;
+use crate::program::solve::{forces_of, with_task};
+use crate::ui::failure::Answer;
+use crate::ui::progress::Progress;
+
+/// A run along the program of a job.
+pub(crate) struct JobRun {
+    pub(crate) setting: Setting,
+    pub(crate) machine: MachineSetup,
+    pub(crate) model: Model,
+    /// The run, with some of its places on cutting moves.
+    pub(crate) run: Run,
+}
+
+/// The machine at a place.
+pub(crate) struct Standing {
+    /// Commands of the program as it is, m or rad.
+    pub(crate) commands: Vec<f64>,
+    /// Tool of the mechanism from the tip of the tool of the place.
+    pub(crate) tip: Pose,
+}
+
+impl JobRun {
+    /// Runs the program of a job, with the model that is `named` in place of the job's, and keeps about so many places.
+    pub(crate) fn of(job: &Path, named: Option<&str>, aim: Aim, places: usize) -> Answer<Self> {
+        let files = InputFiles::default();
+        let job = JobFile::read(&files, job)?;
+        let flags = ProgramArgs::default();
+        let mut setting = setting(&files, Some(&job), &flags, &WritingFlags::default())?;
+        let (machine, model) = machine_of(&mut setting, &files, Some(&job), named, &flags)?;
+        let read = read_program(&setting)?;
+        let progress = Progress::new();
+        let forces = forces_of(&machine, &setting, read.path(), &progress)?;
+        let forces = forces.as_ref();
+        let run = with_task(aim, &machine, &setting, &read, forces, |task| {
+            let task = Task {
+                places,
+                ..task.clone()
+            };
+            match aim {
+                Aim::Analyse => analyse(&task, &progress),
+                Aim::Compensate => compensate_program(&task, &progress),
+            }
+        })?;
+        progress.finish();
+        let run = run.map_err(|error| setting.within(error.into()))?;
+        drop(read);
+        Ok(Self {
+            setting,
+            machine,
+            model,
+            run,
+        })
+    }
+
+    /// The machine at a place, by its commands there; `mechanism` may have another tool than the job's.
+    pub(crate) fn standing_at(
+        &self,
+        place: &ProgramPlace,
+        mechanism: &Mechanism,
+    ) -> Option<Standing> {
+        let mut points = self.run.points.iter();
+        let point = points.find(|p| p.move_index == place.move_index && p.share == place.share)?;
+        let limbs = self.machine.mechanism.limbs().iter();
+        let drives = limbs.flat_map(|limb| limb.nominal.actuators());
+        let commands: Vec<f64> = (drives.zip(&point.actuator_command))
+            .map(|(drive, shown)| shown / unit_of(drive.kind))
+            .collect();
+        let request = PostureRequest::commands(&commands);
+        let posture = mechanism.posture(request).ok()?;
+        Some(Standing {
+            tip: posture.target().inverse() * place.programmed,
+            commands,
+        })
+    }
+}
