@@ -42,7 +42,7 @@ from __future__ import annotations
 {imports}
 '''
 
-LEFT_OUT = {"completions", "explain", "man", "schema"}
+LEFT_OUT = {"completions", "explain", "man", "schema", "start"}
 LISTS = {"reproduce"}
 """Commands whose JSON is a list."""
 NAMES_BEFORE = {"pendant"}

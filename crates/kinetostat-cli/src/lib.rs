@@ -46,6 +46,7 @@ mod reproduce;
 mod schema;
 mod shares;
 mod shell;
+mod start;
 mod stiffness;
 mod tolerance;
 mod ui;
@@ -219,6 +220,7 @@ fn parsed(command: clap::Command, words: Vec<OsString>) -> Result<(Cli, Given), 
 fn run(command: Command, given: &Given) -> Answer<()> {
     match command {
         Command::Demo(args) => demo::run(&args),
+        Command::Start(args) => start::run(&args),
         Command::Compensate(args) => compensate::run(*args, given),
         Command::Deflect(args) => deflect::run(*args, given),
         Command::Stiffness(args) => stiffness::run(&args),

@@ -131,6 +131,17 @@ pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
     }
 }
 
+/// Ends of a job's program that the machine does not reach, in words.
+pub(crate) fn unreached(files: &InputFiles, path: &Path) -> Answer<Vec<String>> {
+    let found = findings(files, path, &ProgramArgs::default())?;
+    let ends = found.ends.into_iter().filter(|end| !end.reached);
+    let words = ends.map(|end| {
+        let why = end.problem.unwrap_or_default();
+        format!("{} of the program, line {}: {why}", end.end, end.line)
+    });
+    Ok(words.collect())
+}
+
 fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobFindings> {
     let job = JobFile::read(files, path)?;
     let mut setting = setting(files, Some(&job), flags, &WritingFlags::default())?;

@@ -3,7 +3,7 @@
 //! It takes a model, a job, or a model with poses measured on the machine, and gives findings; it solves a model at
 //! home only.
 
-mod job;
+pub(crate) mod job;
 mod model;
 mod poses;
 

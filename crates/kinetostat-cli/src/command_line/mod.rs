@@ -39,6 +39,7 @@ use crate::reproduce::ReproduceArgs;
 use crate::schema::SchemaArgs;
 use crate::shares::arguments::SharesArgs;
 use crate::shell::{CompletionsArgs, ManArgs};
+use crate::start::StartArgs;
 use crate::stiffness::arguments::StiffnessArgs;
 use crate::tolerance::arguments::ToleranceArgs;
 use crate::verify::arguments::VerifyArgs;
@@ -59,6 +60,8 @@ use crate::view::ViewArgs;
         "Examples:\n",
         "  kinetostat demo\n",
         "      a first look: mills a circle on a bending machine and opens no network\n",
+        "  kinetostat start\n",
+        "      your robot and your program: some questions, and the first result\n",
         "  kinetostat deflect job.toml\n",
         "      how far is the tool off along the program?\n",
         "  kinetostat compensate job.toml\n",
@@ -91,6 +94,7 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Demo(DemoArgs),
+    Start(StartArgs),
     Compensate(Box<CompensateArgs>),
     Verify(Box<VerifyArgs>),
     Deflect(Box<DeflectArgs>),

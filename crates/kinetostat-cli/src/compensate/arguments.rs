@@ -15,7 +15,7 @@ use crate::options::{EXIT_CODES, number, small};
 /// over the job file), solves the machine along the program, writes the compensated program, reads
 /// it again from its bytes and solves it once more: the error after compensation is measured, not
 /// promised. Nothing is overwritten without --force-overwrite, an input never.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 #[command(after_help = EXIT_CODES, after_long_help = COMPENSATE_HELP)]
 pub(crate) struct CompensateArgs {
     #[command(flatten)]
@@ -68,6 +68,16 @@ pub(crate) struct CompensateArgs {
     /// Blocks that the controller reads in a second: as --min-block-mm, and a warning if the written program asks for more
     #[arg(long, value_name = "N", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = number)]
     pub(crate) max_blocks_per_second: Option<f64>,
+}
+
+impl CompensateArgs {
+    /// A job as it is written.
+    pub(crate) fn of_job(job: PathBuf, force_overwrite: bool) -> Self {
+        let mut args = Self::default();
+        args.run.job = Some(job);
+        args.run.program.force_overwrite = force_overwrite;
+        args
+    }
 }
 
 const COMPENSATE_HELP: &str = r#"Examples:

@@ -11,6 +11,7 @@ use kinetostat_machining::RunResult;
 use kinetostat_model::preset_text;
 
 use crate::files::input_files::InputFiles;
+use crate::files::made_folder::in_folder;
 use crate::files::outputs::Existing;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::job_file::JobFile;
@@ -24,7 +25,6 @@ use crate::ui::failure::{Answer, Failing};
 use crate::ui::layout::{listed, wrapped};
 use crate::ui::result_form::ResultForm;
 use crate::ui::safe_text::safe;
-use crate::ui::system_error::description;
 
 const PROGRAM: &str = "\
 (circular groove, radius 25 mm, depth 2 mm)
@@ -93,36 +93,7 @@ pub(crate) const RESULTS: &[ResultForm] = &[ResultForm::of::<RunResult>(
 )];
 
 pub(crate) fn run(args: &DemoArgs) -> Answer<()> {
-    let made = directory(&args.out)?;
-    let result = in_directory(args);
-    if result.is_err() && made {
-        // The folder is removed only if it is empty.
-        let _ = std::fs::remove_dir(&args.out);
-    }
-    result
-}
-
-/// Makes the directory if it is missing; true if it was made.
-fn directory(path: &Path) -> Answer<bool> {
-    if path.is_dir() {
-        return Ok(false);
-    }
-    match std::fs::create_dir(path) {
-        Ok(()) => Ok(true),
-        Err(error) => {
-            let reason = match error.kind() {
-                std::io::ErrorKind::AlreadyExists => "a file has that name".to_owned(),
-                std::io::ErrorKind::NotFound => {
-                    "the directory above it does not exist; create it first".to_owned()
-                }
-                _ => description(&error),
-            };
-            Err(ErrorCode::Output.failure(format!(
-                "the directory '{}' cannot be made: {reason}; choose another with --out",
-                path.display()
-            )))
-        }
-    }
+    in_folder(&args.out, || in_directory(args))
 }
 
 fn in_directory(args: &DemoArgs) -> Answer<()> {

@@ -11,6 +11,7 @@ pub(crate) mod hash;
 pub(crate) mod held_folder;
 pub(crate) mod input_files;
 pub(crate) mod journal;
+pub(crate) mod made_folder;
 pub(crate) mod origin;
 pub(crate) mod outputs;
 pub(crate) mod paths;

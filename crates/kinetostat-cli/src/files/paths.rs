@@ -61,6 +61,25 @@ pub(crate) fn same_place(one: &Path, other: &Path) -> bool {
     }
 }
 
+/// A file as seen from a folder, which may not exist yet: from it down or over its parents.
+pub(crate) fn seen_from(folder: &Path, file: &Path) -> String {
+    let full = |path: &Path| {
+        // The empty path is the current folder.
+        let path =
+            std::path::absolute(Path::new(".").join(path)).unwrap_or_else(|_| path.to_owned());
+        fs::canonicalize(&path).unwrap_or(path)
+    };
+    let (folder, file) = (full(folder), full(file));
+    let shared = folder.components().zip(file.components());
+    let shared = shared.take_while(|(a, b)| a == b).count();
+    let up = folder
+        .components()
+        .skip(shared)
+        .map(|_| Component::ParentDir);
+    let path: PathBuf = up.chain(file.components().skip(shared)).collect();
+    path.to_string_lossy().replace('\\', "/")
+}
+
 /// Reason for which a job file may not write to a path.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum Outside {

@@ -14,7 +14,7 @@ use crate::options::{number, whole};
 use crate::ui::language::LanguageWord;
 
 /// Job file, model and everything about the program.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(crate) struct RunArgs {
     /// Job file (TOML): model, program, placement, load, tolerances, outputs
     #[arg(value_name = "JOB")]

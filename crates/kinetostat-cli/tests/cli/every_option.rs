@@ -53,7 +53,7 @@ const LINES: [&str; 41] = [
 ];
 
 /// Commands without a line: what they print is no answer to a question.
-const WITHOUT_A_LINE: [&str; 5] = ["completions", "explain", "help", "man", "schema"];
+const WITHOUT_A_LINE: [&str; 6] = ["completions", "explain", "help", "man", "schema", "start"];
 
 /// Options that may change nothing, of one command or of all: leave to overwrite and to begin anew, speed, bounds that are kept
 /// here, and facts of machine and program that this program does not need.

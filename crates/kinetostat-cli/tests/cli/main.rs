@@ -90,6 +90,7 @@ mod sensible_numbers;
 mod shares;
 mod smallest_stiffness;
 mod stability;
+mod start;
 mod tables;
 mod tolerances;
 mod uncertain;

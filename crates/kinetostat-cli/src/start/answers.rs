@@ -1,0 +1,224 @@
+//! What is known of a cell after some answers, and what is to be asked next.
+
+use std::path::{Path, PathBuf};
+
+use kinetostat_model::schema::AxisName;
+
+use crate::job::format::WeightWord;
+use crate::job::target_word::RobotWord;
+use crate::job::tool_mass::MASSES_KG;
+use crate::start::facts::Facts;
+use crate::start::question::Ask;
+use crate::start::reading::{
+    Cut, Engaged, NONE, Stated, above_zero, cut, engaged, numbers, one_of, wrong,
+};
+use crate::start::robot::{Robot, Urdf};
+use crate::ui::failure::Answer;
+
+/// Answers so far.
+#[derive(Clone, Default)]
+pub(super) struct Answers {
+    /// Folder of the files that are written.
+    pub(super) folder: PathBuf,
+    pub(super) urdf: Option<Urdf>,
+    pub(super) robot: Option<Robot>,
+    pub(super) program: Option<Facts>,
+    /// Language in which the program is to be written; `Some(None)`: that of the program.
+    pub(super) to: Option<Option<RobotWord>>,
+    pub(super) numbers: Option<[u32; 2]>,
+    /// One of G-code; of a robot's program those that it does not state, in their order.
+    pub(super) tools: Vec<Stated>,
+    /// Statements of the controller that start the spindle, and that stop it.
+    pub(super) spindle: Vec<Vec<String>>,
+    pub(super) tool_axis: Option<String>,
+    pub(super) mass_kg: Option<f64>,
+    pub(super) part: Option<Stated>,
+    pub(super) weight: Option<WeightWord>,
+    pub(super) touch_off_mm: Option<[f64; 3]>,
+    pub(super) cut: Option<Cut>,
+    /// Diameter mm, teeth, helix deg.
+    pub(super) cutter: Option<[f64; 3]>,
+    pub(super) engaged: Option<Engaged>,
+    pub(super) rpm: Option<f64>,
+    pub(super) air_mm_per_s: Option<f64>,
+    pub(super) tolerance_um: Option<f64>,
+}
+
+impl Answers {
+    /// The next question; none when all is known.
+    pub(super) fn next(&self) -> Option<Ask> {
+        let Some(robot) = &self.robot else {
+            return Some(self.urdf.as_ref().map_or(Ask::Robot, Urdf::next));
+        };
+        let Some(program) = &self.program else {
+            return Some(Ask::Program);
+        };
+        let made = self.to.flatten().is_some();
+        let is_robot = program.language.is_some();
+        let weighs = robot.model.document.mechanism.gravity_m_per_s2.is_some();
+        let material = matches!(self.cut, Some(Cut::Material(_)));
+        let questions = [
+            (Ask::To, !is_robot && self.to.is_none()),
+            (
+                Ask::Numbers,
+                self.to.flatten() == Some(RobotWord::Ls) && self.numbers.is_none(),
+            ),
+            (
+                Ask::SpindleStart,
+                made && program.has_spindle && self.spindle.is_empty(),
+            ),
+            (
+                Ask::SpindleStop,
+                made && program.has_spindle && self.spindle.len() == 1,
+            ),
+            (Ask::Tool, self.tools.len() < program.tools_to_ask()),
+            (
+                Ask::ToolAxis,
+                program.axis_is_open && self.tool_axis.is_none(),
+            ),
+            (Ask::Mass, weighs && self.mass_kg.is_none()),
+            (Ask::Part, program.asks_for_part() && self.part.is_none()),
+            (Ask::Weight, weighs && self.weight.is_none()),
+            (
+                Ask::TouchOff,
+                self.weight == Some(WeightWord::TouchOff) && self.touch_off_mm.is_none(),
+            ),
+            (Ask::Cut, self.cut.is_none()),
+            (Ask::Cutter, material && self.cutter.is_none()),
+            (Ask::Engaged, material && self.engaged.is_none()),
+            (
+                Ask::Speed,
+                material && !program.has_spindle && self.rpm.is_none(),
+            ),
+            (Ask::Air, is_robot && self.air_mm_per_s.is_none()),
+            (Ask::Tolerance, self.tolerance_um.is_none()),
+        ];
+        let mut open = questions.into_iter().filter(|(_, is_open)| *is_open);
+        open.next().map(|(ask, _)| ask)
+    }
+
+    /// Takes an answer, if it is one; what was understood, where that is worth a line.
+    pub(super) fn take(&mut self, ask: Ask, text: &str) -> Answer<Option<String>> {
+        let text = text.trim();
+        match ask {
+            Ask::Robot => {
+                if let Some(urdf) = Urdf::of(text)? {
+                    let tip = urdf.tip.as_ref();
+                    let said =
+                        tip.map(|tip| format!("the tool is on '{tip}', the end of the chain"));
+                    self.urdf = Some(urdf);
+                    return Ok(said);
+                }
+                let robot = Robot::of(text, &self.folder)?;
+                let said = robot.model.document.mechanism.description.clone();
+                self.robot = Some(robot);
+                return Ok(said);
+            }
+            Ask::Tip => {
+                self.urdf = self
+                    .urdf
+                    .as_ref()
+                    .map(|urdf| urdf.with_tip(text))
+                    .transpose()?
+            }
+            Ask::FlangeAxis => {
+                let axes = [("x", AxisName::X), ("y", AxisName::Y), ("z", AxisName::Z)];
+                let axis = one_of(text, &axes)?;
+                if let Some(urdf) = &mut self.urdf {
+                    urdf.flange_z = Some(axis);
+                }
+            }
+            Ask::JointStiffness => {
+                self.robot = self
+                    .urdf
+                    .as_ref()
+                    .map(|urdf| urdf.robot(text))
+                    .transpose()?
+            }
+            Ask::Program => {
+                let facts = Facts::of(Path::new(text))?;
+                let said = facts.words();
+                self.program = Some(facts);
+                return Ok(Some(said));
+            }
+            Ask::To => {
+                let words = [
+                    ("g-code", None),
+                    ("krl", Some(RobotWord::Krl)),
+                    ("rapid", Some(RobotWord::Rapid)),
+                    ("ls", Some(RobotWord::Ls)),
+                ];
+                self.to = Some(one_of(text, &words)?);
+            }
+            Ask::Numbers => {
+                let whole =
+                    |x: f64| (x.fract() == 0.0 && (0.0..=255.0).contains(&x)).then_some(x as u32);
+                let [base, tool] = numbers::<2>(text)?.map(whole);
+                let pair = base
+                    .zip(tool)
+                    .ok_or_else(|| wrong("two whole numbers from 0 to 255 are needed"))?;
+                self.numbers = Some(pair.into());
+            }
+            Ask::SpindleStart | Ask::SpindleStop => {
+                let statements = text.split('|').map(|own| own.trim().to_owned());
+                self.spindle.push(match text {
+                    NONE => Vec::new(),
+                    _ => statements.collect(),
+                });
+            }
+            Ask::Tool => {
+                let length = numbers::<1>(text).ok();
+                let along_z = length.map(|[z]| Stated {
+                    position_mm: [0.0, 0.0, z],
+                    orientation: None,
+                });
+                self.tools
+                    .push(along_z.map_or_else(|| self.stated(text), Ok)?);
+            }
+            Ask::ToolAxis => {
+                let axes = ["x", "y", "z", "-x", "-y", "-z"].map(|axis| (axis, axis));
+                self.tool_axis = Some(one_of(text, &axes)?.to_owned());
+            }
+            Ask::Mass => {
+                let [mass] = numbers(text)?;
+                let allowed = mass == 0.0 || MASSES_KG.contains(&mass);
+                self.mass_kg = Some(
+                    allowed
+                        .then_some(mass)
+                        .ok_or_else(|| wrong("a mass from 0.001 to 5000 kg is needed, or 0"))?,
+                );
+            }
+            Ask::Part => self.part = Some(self.stated(text)?),
+            Ask::Weight => {
+                let words = [
+                    ("touch-off", WeightWord::TouchOff),
+                    ("all", WeightWord::All),
+                    ("none", WeightWord::None),
+                ];
+                self.weight = Some(one_of(text, &words)?);
+            }
+            Ask::TouchOff => self.touch_off_mm = Some(numbers(text)?),
+            Ask::Cut => self.cut = Some(cut(text)?),
+            Ask::Cutter => {
+                let cutter @ [diameter, teeth, helix] = numbers(text)?;
+                let can_be = diameter > 0.0
+                    && teeth >= 1.0
+                    && teeth.fract() == 0.0
+                    && (0.0..90.0).contains(&helix);
+                self.cutter = Some(can_be.then_some(cutter).ok_or_else(|| wrong("a diameter above 0 mm, a whole number of teeth and a helix from 0 to 90 deg are needed"))?);
+            }
+            Ask::Engaged => self.engaged = Some(engaged(text)?),
+            Ask::Speed => self.rpm = Some(above_zero(text)?),
+            Ask::Air => self.air_mm_per_s = Some(above_zero(text)?),
+            Ask::Tolerance => self.tolerance_um = Some(1e3 * above_zero(text)?),
+        }
+        Ok(None)
+    }
+
+    /// A place, with the angles of the robot that takes the program.
+    fn stated(&self, text: &str) -> Answer<Stated> {
+        let language = self.to.flatten().map(RobotWord::of_robot);
+        let own = || self.program.as_ref()?.language;
+        Stated::read(text, language.or_else(own))
+    }
+}

@@ -1,0 +1,170 @@
+//! Answers as text: numbers, places, what cuts.
+
+use kinetostat_cutting::Materials;
+use kinetostat_diagnostic::ErrorCode;
+use kinetostat_formats::Language;
+
+use crate::place::orientation;
+use crate::ui::failure::{Answer, Failing, Failure};
+use crate::ui::numbers::short;
+
+/// Answer that leaves something out.
+pub(super) const NONE: &str = "none";
+
+/// Position in mm and, if it was given, orientation as a table of a job states it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Stated {
+    pub(super) position_mm: [f64; 3],
+    /// Convention and its numbers.
+    pub(super) orientation: Option<(String, Vec<f64>)>,
+}
+
+/// What cuts, or the force of it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Cut {
+    /// To the right of the feed, along it, along z of the part, N.
+    Force([f64; 3]),
+    Material(String),
+    None,
+}
+
+/// Where the tool meets the material.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Engaged {
+    /// Two corners of a block, program coordinates, mm.
+    Block([f64; 6]),
+    /// Width and depth everywhere, mm, and the side of the feed on which the part is.
+    Everywhere([f64; 2], &'static str),
+}
+
+impl Stated {
+    /// Position and orientation: three numbers, and behind them none, the angles of the robot's controller, a quaternion as ABB
+    /// writes it, or numbers with the name of their convention.
+    pub(super) fn read(text: &str, language: Option<Language>) -> Answer<Self> {
+        let (position, named) = match text.split_once('=') {
+            Some((before, values)) => {
+                let (position, name) = before
+                    .trim()
+                    .rsplit_once([' ', ','])
+                    .ok_or_else(|| wrong(POSE))?;
+                (
+                    position,
+                    Some((name.trim().to_owned(), all_numbers(values)?)),
+                )
+            }
+            None => (text, None),
+        };
+        let all = all_numbers(position)?;
+        let Some((&[x, y, z], rest)) = all.split_first_chunk::<3>() else {
+            return Err(wrong(POSE));
+        };
+        let orientation = match (rest.len(), named) {
+            (0, named) => named,
+            (4, None) => Some(("quaternion_wxyz".to_owned(), rest.to_vec())),
+            (3, None) => match language.and_then(angles_of) {
+                Some(name) => Some((name.to_owned(), rest.to_vec())),
+                None => {
+                    return Err(wrong(
+                        "three angles mean a dozen different rotations: name them, as in 1800 0 900 a_b_c_kuka_deg=90,0,0",
+                    ));
+                }
+            },
+            _ => return Err(wrong(POSE)),
+        };
+        if let Some((name, values)) = &orientation {
+            if !orientation::CONVENTIONS.contains(&name.as_str()) {
+                return Err(wrong(&format!(
+                    "'{name}' is no convention; there are {}",
+                    orientation::CONVENTIONS.join(", ")
+                )));
+            }
+            orientation::of(name, values).map_err(|fault| wrong(&fault.to_string()))?;
+        }
+        Ok(Self {
+            position_mm: [x, y, z],
+            orientation,
+        })
+    }
+}
+
+const POSE: &str = "X Y Z in mm are needed, and an orientation behind them if it is not parallel: A B C of KUKA, W P R of FANUC, four numbers of a quaternion (w first), or CONVENTION=numbers";
+
+/// The angles of a controller by the name of their convention.
+fn angles_of(language: Language) -> Option<&'static str> {
+    match language {
+        Language::Krl => Some("a_b_c_kuka_deg"),
+        Language::FanucLs => Some("w_p_r_fanuc_deg"),
+        _ => None,
+    }
+}
+
+pub(super) fn wrong(words: &str) -> Failure {
+    ErrorCode::Value.failure(words)
+}
+
+pub(super) fn one_of<T: Clone>(text: &str, words: &[(&str, T)]) -> Answer<T> {
+    let lower = text.to_lowercase();
+    let found = words.iter().find(|(word, _)| *word == lower);
+    let names: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+    found
+        .map(|(_, value)| value.clone())
+        .ok_or_else(|| wrong(&format!("'{text}' is none of: {}", names.join(", "))))
+}
+
+fn all_numbers(text: &str) -> Answer<Vec<f64>> {
+    let words = text
+        .split([' ', ',', ';', '\t'])
+        .filter(|word| !word.is_empty());
+    words
+        .map(|word| {
+            let number = word.parse::<f64>().ok().filter(|x| x.abs() <= 1e9);
+            number.ok_or_else(|| wrong(&format!("'{word}' is no number; write one as in -12.5")))
+        })
+        .collect()
+}
+
+pub(super) fn numbers<const N: usize>(text: &str) -> Answer<[f64; N]> {
+    let all = all_numbers(text)?;
+    let count = all.len();
+    all.try_into()
+        .map_err(|_| wrong(&format!("{N} numbers are needed, {count} are given")))
+}
+
+pub(super) fn above_zero(text: &str) -> Answer<f64> {
+    let [value] = numbers(text)?;
+    match value > 0.0 {
+        true => Ok(value),
+        false => Err(wrong(&format!("{} is not above 0", short(value)))),
+    }
+}
+
+pub(super) fn cut(text: &str) -> Answer<Cut> {
+    if text == NONE {
+        return Ok(Cut::None);
+    }
+    if text.starts_with(|c: char| c.is_ascii_digit() || c == '-' || c == '.')
+        && all_numbers(text).is_ok()
+    {
+        return Ok(Cut::Force(numbers(text)?));
+    }
+    let materials = Materials::library();
+    let material = materials
+        .find(text)
+        .map_err(|error| wrong(&error.to_string()))?;
+    Ok(Cut::Material(material.name.clone()))
+}
+
+pub(super) fn engaged(text: &str) -> Answer<Engaged> {
+    let sides = [("left", "left"), ("right", "right")];
+    if let Some((rest, side)) = text.rsplit_once(' ')
+        && let Ok(side) = one_of(side, &sides)
+    {
+        return Ok(Engaged::Everywhere(numbers(rest)?, side));
+    }
+    match all_numbers(text)?.len() {
+        6 => Ok(Engaged::Block(numbers(text)?)),
+        _ => Err(wrong(
+            "six numbers are needed (two corners of the block), or width, depth and the side of the part, as in 4 2 right",
+        )),
+    }
+}
