@@ -78,10 +78,20 @@ export interface State {
 export interface Place {
   line: number;
   path_mm: number;
+  /** Time from the start of the program at its feed, s; not in older results. */
+  time_s?: number | null;
   position_mm: Vec3;
   force_n: Vec3;
   error_before_mm: number;
   error_after_mm: number;
+}
+
+/** A box in base axes. */
+export interface SolidBox {
+  name: string;
+  kind: "stock" | "part" | "obstacle";
+  corner_mm: Vec3;
+  edges_mm: [Vec3, Vec3, Vec3];
 }
 
 export interface Path {
@@ -90,6 +100,7 @@ export interface Path {
   places: Place[];
   tolerance_mm: number;
   headline: string[];
+  boxes?: SolidBox[];
 }
 
 export interface Modes {
@@ -112,8 +123,8 @@ export interface Source {
   state(request: StateRequest): Promise<State>;
   /** Vibrations about a state; the lowest first. */
   modes(request: StateRequest): Promise<Modes>;
-  /** The nearest place of a path of which there is a state. */
-  nearest(place: number): number;
+  /** Places of the path of which there are states; null: of all. */
+  readonly stored: number[] | null;
 }
 
 async function json<T>(response: Response): Promise<T> {
@@ -127,6 +138,7 @@ async function json<T>(response: Response): Promise<T> {
 
 class Server implements Source {
   readonly live = true;
+  readonly stored = null;
 
   async machine(): Promise<Machine> {
     return json(await fetch("api/machine"));
@@ -149,16 +161,15 @@ class Server implements Source {
     const headers = { "content-type": "application/json" };
     return json(await fetch(route, { method: "POST", headers, body: JSON.stringify(request) }));
   }
-
-  nearest(place: number): number {
-    return place;
-  }
 }
 
 class File implements Source {
   readonly live = false;
+  readonly stored: number[];
 
-  constructor(private readonly held: Exported) {}
+  constructor(private readonly held: Exported) {
+    this.stored = held.states.map((own) => own.place);
+  }
 
   async machine(): Promise<Machine> {
     return this.held.machine;
@@ -169,17 +180,19 @@ class File implements Source {
   }
 
   async state(request: StateRequest): Promise<State> {
-    return this.held.states.find((own) => own.place === request.place)?.state ?? this.held.state;
+    const place = typeof request.place === "number" ? nearest(this.stored, request.place) : null;
+    return this.held.states.find((own) => own.place === place)?.state ?? this.held.state;
   }
 
   async modes(): Promise<Modes> {
     throw new Error("This file holds no vibrations.");
   }
+}
 
-  nearest(place: number): number {
-    const far = (own: number) => Math.abs(own - place);
-    return this.held.states.map((own) => own.place).reduce((best, own) => (far(own) < far(best) ? own : best), 0);
-  }
+/** The place of a list that is nearest to one. */
+export function nearest(places: number[], place: number): number | null {
+  const far = (own: number) => Math.abs(own - place);
+  return places.reduce((best: number | null, own) => (best === null || far(own) < far(best) ? own : best), null);
 }
 
 export function source(): Source {

@@ -1,10 +1,13 @@
 // The page: machine, panel, and the path of a program.
 
+import { hasAddress } from "./address";
 import { source } from "./api";
 import { Panel, button, element } from "./panel";
 import { PathView } from "./pathview";
+import { printable } from "./picture";
 import { Stage } from "./stage";
 import { Store } from "./store";
+import { toolbar } from "./toolbar";
 import "./style.css";
 
 async function start(): Promise<void> {
@@ -17,6 +20,7 @@ async function start(): Promise<void> {
   const place = (id: string) => document.getElementById(id) ?? document.body;
   const stage = new Stage(place("stage"), store);
   const panel = new Panel(place("panel"), store, stage);
+  toolbar(place("stage"), place("panel"), store, stage);
   const program = path === null ? null : new PathView(place("path"), store, stage, path);
   document.body.classList.toggle("with-path", program !== null);
   const draw = () => {
@@ -28,9 +32,10 @@ async function start(): Promise<void> {
   store.onChange(draw);
   draw();
   stage.look("Oblique");
+  printable(stage, store);
 }
 
 start().catch((error: unknown) => {
   const words = error instanceof TypeError ? "The server does not answer: is the command still running?" : String((error as Error).message ?? error);
-  document.body.replaceChildren(element("p", { class: "finding", role: "alert" }, words), button("Retry", () => window.location.reload()));
+  document.body.replaceChildren(element("p", { class: "finding", role: "alert" }, words), ...(hasAddress() ? [button("Retry", () => window.location.reload())] : []));
 });

@@ -1,9 +1,13 @@
 // The panel beside the machine: joints, tool, load, figures, and what can be copied.
 
+import { hasAddress } from "./address";
 import type { State, Vec3 } from "./api";
+import { limbValues } from "./byvalue";
 import { byShare } from "./colour";
-import { VIEWS, limbValues, type Stage } from "./stage";
+import { picture } from "./picture";
+import type { Stage } from "./stage";
 import { scaleOf, shown, type Colours, type Store } from "./store";
+import { summary } from "./summary";
 
 /** An element with attributes and content. */
 export function element<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Record<string, string> = {}, ...content: (Node | string)[]): HTMLElementTagNameMap[K] {
@@ -54,6 +58,11 @@ class VectorInput {
     this.row = element("div", { class: "triple" }, element("span", {}, label), ...this.inputs, element("span", { class: "unit" }, unit));
   }
 
+  /** Lets the numbers be typed, or not. */
+  enable(isEnabled: boolean): void {
+    this.inputs.forEach((input) => (input.disabled = !isEnabled));
+  }
+
   show(values: Vec3): void {
     this.values = values;
     this.inputs.forEach((input, k) => {
@@ -70,7 +79,9 @@ export class Panel {
   private readonly tool: VectorInput;
   private readonly force: VectorInput;
   private readonly moment: VectorInput;
+  private readonly noLoad = button("No load", () => this.store.change({ force_n: null, moment_n_m: null }));
   private readonly figures = element("dl", {});
+  private readonly nearby = element("p", { class: "unit" });
   private readonly shares = element("div", { class: "shares" });
   private readonly legend = element("div", { class: "shares" });
   private readonly scale: HTMLInputElement;
@@ -112,22 +123,30 @@ export class Panel {
       element("h1", {}, machine.name),
       ...(machine.description === null ? [] : [element("p", { class: "unit" }, machine.description)]),
       ...(live ? [] : [element("p", { class: "unit" }, "This file holds results; kinetostat view computes new ones.")]),
+      ...[summary(store.path?.headline ?? [])].filter((own) => own !== null),
       this.finding,
-      element("div", { class: "row" }, ...Object.keys(VIEWS).map((view) => button(view, () => stage.look(view), `Look: ${view.toLowerCase()}`)), this.theme()),
       section("Joints", ...joints, element("div", { class: "row" }, ...(live ? [button("Home", () => store.change({ actuators: null }))] : []))),
-      section("Tool and load, base axes", this.tool.row, this.force.row, this.moment.row, element("div", { class: "row" }, ...(live ? [button("No load", () => store.change({ force_n: null, moment_n_m: null }))] : []))),
-      section(
-        "Drawing",
-        element("div", { class: "joint" }, element("span", {}, "Deflection"), this.scale, button("Round", () => store.draw({ scale: 0 }), "A round factor that shows it")),
-        element("div", { class: "row" }, this.swing(), this.check("Names", "names"), this.check("Ellipsoid of displacements", "ellipsoid"), this.check("of turns", "rotary")),
-        this.colours(),
-        this.legend,
-      ),
-      section("Figures", this.figures),
+      section("Tool and load, base axes", this.tool.row, this.force.row, this.moment.row, element("div", { class: "row" }, ...(live ? [this.noLoad] : []))),
+      this.drawing(),
+      section("Figures", this.nearby, this.figures),
       section("What bends", this.shares),
-      element("div", { class: "row" }, this.copy("Copy link", () => store.link()), this.copy("Copy command", () => store.state?.cli ?? ""), this.copy("Copy Python", () => store.state?.python ?? ""), this.picture(), this.said),
+      element("div", { class: "row" }, ...(hasAddress() ? [this.copy("Copy link", () => store.link())] : []), this.copy("Copy command", () => store.state?.cli ?? ""), this.copy("Copy Python", () => store.state?.python ?? ""), this.picture(), this.said),
       element("p", { class: "unit" }, `kinetostat ${machine.version}`),
     );
+  }
+
+  /** How the state is drawn; it is not printed. */
+  private drawing(): HTMLElement {
+    const { store } = this;
+    const out = section(
+      "Drawing",
+      element("div", { class: "joint" }, element("span", {}, "Deflection"), this.scale, button("Round", () => store.draw({ scale: 0 }), "A round factor that shows it")),
+      element("div", { class: "row" }, this.swing(), this.check("Names", "names"), this.check("Ellipsoid of displacements", "ellipsoid"), this.check("of turns", "rotary"), ...((store.path?.boxes ?? []).length > 0 ? [this.check("Stock, part and obstacles", "boxes")] : [])),
+      this.colours(),
+      this.legend,
+    );
+    out.classList.add("drawing");
+    return out;
   }
 
   private swing(): HTMLElement {
@@ -139,7 +158,7 @@ export class Panel {
     return element("label", { class: "row" }, "Swing", select);
   }
 
-  private check(words: string, key: "names" | "ellipsoid" | "rotary"): HTMLElement {
+  private check(words: string, key: "names" | "ellipsoid" | "rotary" | "boxes"): HTMLElement {
     const box = element("input", { type: "checkbox" });
     box.checked = this.store.look[key];
     box.addEventListener("change", () => this.store.draw({ [key]: box.checked }));
@@ -154,10 +173,6 @@ export class Panel {
     return element("label", { class: "row" }, "Limbs coloured by", select);
   }
 
-  private theme(): HTMLElement {
-    return button("Light / dark", () => this.store.draw({ dark: !this.stage.dark() }));
-  }
-
   private copy(words: string, text: () => string): HTMLElement {
     return button(words, () => {
       const done = () => (this.said.textContent = "copied");
@@ -170,7 +185,7 @@ export class Panel {
 
   private picture(): HTMLElement {
     return button("Save picture", () => {
-      element("a", { href: this.stage.renderer.domElement.toDataURL("image/png"), download: `${this.store.machine.name}.png` }).click();
+      element("a", { href: picture(this.stage).toDataURL("image/png"), download: `${this.store.machine.name}.png` }).click();
     });
   }
 
@@ -192,9 +207,15 @@ export class Panel {
       }
     });
     this.tool.show(state.tool.position_mm);
+    // At a place of the program its own load acts.
+    const isLoadFree = this.store.source.live && typeof this.store.request.place !== "number";
+    this.force.enable(isLoadFree);
+    this.moment.enable(isLoadFree);
+    this.noLoad.disabled = !isLoadFree;
     this.force.show(state.force_n);
     this.moment.show(state.moment_n_m);
     this.scale.value = String(Math.log10(scaleOf(this.store)));
+    this.nearby.textContent = this.store.nearby().replace("Machine drawn", "Figures");
     this.figures.replaceChildren(
       ...state.figures.flatMap((own) => [element("dt", {}, own.label), element("dd", {}, own.value, ...(own.detail === null ? [] : [element("small", {}, own.detail)]))]),
     );
@@ -225,7 +246,7 @@ export class Panel {
     const values = limbValues(this.store);
     const most = Math.max(...values, 1e-300);
     const unit = this.store.look.colours === "load" ? "N" : "%";
-    this.legend.replaceChildren(...values.map((value, i) => bar(this.store.machine.limbs[i]!, value / most, `${shown(value)} ${unit}`, byShare(value / most))));
+    this.legend.replaceChildren(...values.map((value, i) => bar(this.store.machine.limbs[i]!, value / most, `${shown(value)} ${unit}`, byShare(value / most, this.stage.dark()))));
   }
 }
 

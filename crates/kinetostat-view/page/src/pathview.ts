@@ -1,36 +1,35 @@
-// The path of a program: in space, as a chart, and as its lines.
+// The path of a program: in space, as a chart, as its lines, and played.
 
 import * as three from "three";
-import uPlot from "uplot";
-import "uplot/dist/uPlot.min.css";
 
 import type { Path, Place } from "./api";
-import { RAMP, byShare } from "./colour";
-import { dispose, vector } from "./machine3d";
+import { COMPENSATED, ErrorChart, PROGRAMMED, figuresOf } from "./chart";
+import { byShare, ramp } from "./colour";
+import { vector } from "./machine3d";
 import { button, element } from "./panel";
+import { PathLine } from "./path3d";
+import { FIT, Playback } from "./playback";
+import { ProgramLines } from "./programlines";
 import type { Stage } from "./stage";
-import { shown, type Store } from "./store";
+import { shown, type PathColour, type Store } from "./store";
+import { length } from "./units";
 
-/** Lines of the program that stand around the current one. */
-const AROUND = 60;
-const PROGRAMMED = "#d9480f";
-const COMPENSATED = "#2b8a3e";
-/** Time in which the whole path is played, s. */
-const PLAYED = 20;
+const COLOURS: Record<PathColour, string> = { before: "error as programmed", after: "error compensated", force: "size of the force" };
 
 export class PathView {
-  private readonly lines: string[];
-  private readonly text = element("ol", { class: "program", tabindex: "0", "aria-label": "Lines of the program" });
+  private readonly lines: ProgramLines;
   private readonly slider = element("input", { type: "range", min: "0", step: "1", "aria-label": "Place along the path" });
-  private readonly said = element("p", { role: "status" });
-  private readonly most = element("span", {});
-  private readonly play = button("Play", () => this.toggle());
+  private readonly overall = element("p", { class: "overall" });
+  private readonly figures = element("dl", {});
+  private readonly hint = element("p", { class: "unit" });
+  private readonly legend = element("p", { class: "legend pathlegend" });
+  private readonly play = button("Play", () => this.playback.toggle(), "Play or stop (space on the slider)");
   private readonly marker = new three.Mesh(new three.SphereGeometry(1, 16, 12), new three.MeshBasicMaterial());
-  private readonly chart: uPlot;
-  private line: three.Object3D | null = null;
-  /** The error by which the path is coloured now. */
-  private coloured: boolean | null = null;
-  private timer = 0;
+  private readonly chart: ErrorChart;
+  private readonly line: PathLine;
+  private readonly playback: Playback;
+  /** Colours of the path now, so that it is made anew only for others. */
+  private coloured = "";
 
   constructor(
     place: HTMLElement,
@@ -39,144 +38,137 @@ export class PathView {
     private readonly path: Path,
   ) {
     place.hidden = false;
-    this.lines = path.text.split(/\r?\n/);
-    this.slider.max = String(Math.max(path.places.length - 1, 0));
-    this.slider.addEventListener("input", () => this.go(this.slider.valueAsNumber));
-    const after = element("input", { type: "checkbox" });
-    after.checked = store.look.compensated;
-    after.addEventListener("change", () => store.draw({ compensated: after.checked }));
-    const chart = element("div", { class: "chart" });
-    const worst = button("Worst place", () => this.go(this.worst()));
-    place.append(
-      element("div", { class: "chartside" }, element("div", { class: "row" }, element("strong", {}, path.program), this.play, worst, element("label", {}, after, "Colour by the error that is left"), ...this.legend()), this.said, this.slider, chart),
-      this.text,
+    const { places } = path;
+    this.playback = new Playback(
+      places,
+      (index) => store.change({ place: index }),
+      () => (this.play.textContent = this.playback.isPlaying ? "Stop" : "Play"),
     );
-    this.chart = this.draw(chart);
-    new ResizeObserver(() => this.chart.setSize({ width: chart.clientWidth, height: Math.max(chart.clientHeight, 90) })).observe(chart);
-    stage.extra.add(this.marker);
-  }
-
-  private draw(place: HTMLElement): uPlot {
-    const { places, tolerance_mm } = this.path;
-    const css = (name: string) => () => getComputedStyle(document.documentElement).getPropertyValue(name);
-    const ink = css("--ink");
-    const axis = { stroke: ink, grid: { stroke: css("--line"), width: 1 }, ticks: { show: false } };
-    const series: uPlot.Series[] = [
-      { label: "path, mm" },
-      { label: "as programmed, mm", stroke: PROGRAMMED, width: 1.5 },
-      { label: "compensated, mm", stroke: COMPENSATED, width: 1.5 },
-      { label: "tolerance, mm", stroke: ink, width: 1, dash: [6, 4] },
-    ];
-    const data: uPlot.AlignedData = [
-      places.map((p) => p.path_mm),
-      places.map((p) => p.error_before_mm),
-      places.map((p) => p.error_after_mm),
-      places.map(() => tolerance_mm),
-    ];
-    const options: uPlot.Options = {
-      width: Math.max(place.clientWidth, 200),
-      height: Math.max(place.clientHeight, 90),
-      series,
-      axes: [{ ...axis, label: "length of the path, mm", labelSize: 16, size: 28 }, { ...axis, label: "error, mm", labelSize: 16, size: 52 }],
-      scales: { x: { time: false }, y: { range: (_, __, high) => [0, 1.05 * high || 1] } },
-      legend: { show: false },
-    };
-    const chart = new uPlot(options, data, place);
-    chart.over.addEventListener("click", () => {
-      const index = chart.cursor.idx;
-      if (typeof index === "number") {
-        this.go(index);
+    this.playback.seek(store.request.place ?? 0);
+    this.lines = new ProgramLines(path, (index) => this.go(index));
+    this.line = new PathLine(places);
+    this.slider.max = String(Math.max(places.length - 1, 0));
+    this.slider.addEventListener("input", () => this.go(this.slider.valueAsNumber));
+    this.slider.addEventListener("keydown", (event) => {
+      if (event.key === " ") {
+        event.preventDefault();
+        this.playback.toggle();
       }
     });
-    return chart;
+    const chart = element("div", { class: "chart" });
+    const worst = button("Worst place", () => this.go(this.worst()), "The place with the largest value of the colour");
+    const controls = element("div", { class: "row controls" }, element("strong", {}, path.program), this.play, this.rates(), this.slider, worst, this.colours());
+    place.append(
+      controls,
+      element("div", { class: "chartside" }, this.overall, chart, this.chartLegend()),
+      element("div", { class: "placeside" }, element("h2", {}, "Place"), this.figures, this.hint),
+      this.lines.element,
+    );
+    this.chart = new ErrorChart(chart, path, (index) => this.go(index));
+    stage.foot.append(this.legend);
+    stage.extra.add(this.line.group, this.marker);
+    stage.pick = (x, y, project) => {
+      const index = this.line.pick(x, y, project);
+      return index === null ? null : () => this.go(index);
+    };
   }
 
-  /** What the colours of chart and path mean. */
-  private legend(): HTMLElement[] {
-    const lines = [[PROGRAMMED, "as programmed"], [COMPENSATED, "compensated"]].map(([colour, words]) => {
+  private rates(): HTMLElement {
+    const words = this.playback.hasTimes ? ["1x", "10x", "100x"] : [];
+    const options = [...words.map((word) => element("option", { value: String(parseInt(word, 10)) }, word)), element("option", { value: "fit" }, `in ${FIT} s`)];
+    const select = element("select", { title: this.playback.hasTimes ? "At the feed of the program, or faster" : "Evenly along the path: its places have no times" }, ...options);
+    select.value = "fit";
+    select.addEventListener("change", () => (this.playback.rate = select.value === "fit" ? null : Number(select.value)));
+    return element("label", {}, "Speed ", select);
+  }
+
+  private colours(): HTMLElement {
+    const select = element("select", { "aria-label": "Colour of the path" }, ...Object.entries(COLOURS).map(([value, text]) => element("option", { value }, text)));
+    select.value = this.store.look.path;
+    select.addEventListener("change", () => this.store.draw({ path: select.value as PathColour }));
+    return element("label", {}, "Colour ", select);
+  }
+
+  private chartLegend(): HTMLElement {
+    const lines = [
+      [PROGRAMMED, "solid", "as programmed"],
+      [COMPENSATED, "solid", "compensated"],
+      ["var(--ink)", "dashed", "tolerance"],
+    ];
+    const each = lines.map(([colour, style, words]) => {
       const line = element("i", {});
-      line.style.borderColor = colour!;
+      line.style.borderTop = `2px ${style} ${colour}`;
       return element("span", { class: "legend" }, line, words!);
     });
-    const ramp = element("i", { class: "ramp" });
-    ramp.style.background = RAMP;
-    return [...lines, element("span", { class: "legend" }, "path: 0", ramp, this.most)];
+    const over = element("span", { class: "legend" }, element("i", { class: "over" }), "over tolerance");
+    return element("div", { class: "row" }, ...each, over);
   }
 
-  private error(place: Place): number {
-    return this.store.look.compensated ? place.error_after_mm : place.error_before_mm;
+  private value(place: Place): number {
+    switch (this.store.look.path) {
+      case "before":
+        return place.error_before_mm;
+      case "after":
+        return place.error_after_mm;
+      case "force":
+        return Math.hypot(...place.force_n);
+    }
   }
 
   private worst(): number {
-    return this.path.places.reduce((worst, place, i, all) => (this.error(place) > this.error(all[worst]!) ? i : worst), 0);
+    const { places } = this.path;
+    return places.reduce((worst, place, i) => (this.value(place) > this.value(places[worst]!) ? i : worst), 0);
   }
 
   private go(index: number): void {
+    this.playback.seek(index);
     this.store.change({ place: index });
-  }
-
-  private toggle(): void {
-    if (this.timer !== 0) {
-      window.clearInterval(this.timer);
-      this.timer = 0;
-    } else {
-      const count = this.path.places.length;
-      const step = Math.max(Math.round(count / (PLAYED * 15)), 1);
-      this.timer = window.setInterval(() => this.go(((this.store.request.place ?? 0) + step) % count), 1000 / 15);
-    }
-    this.play.textContent = this.timer === 0 ? "Play" : "Stop";
-  }
-
-  /** The path in space, made anew only where it is coloured by the other error. */
-  private colour(most: number): void {
-    if (this.coloured === this.store.look.compensated) {
-      return;
-    }
-    this.coloured = this.store.look.compensated;
-    if (this.line !== null) {
-      dispose(this.line);
-    }
-    const { places } = this.path;
-    const geometry = new three.BufferGeometry().setFromPoints(places.map((place) => vector(place.position_mm)));
-    const colours = places.flatMap((place) => new three.Color(byShare(this.error(place) / most)).toArray());
-    geometry.setAttribute("color", new three.Float32BufferAttribute(colours, 3));
-    this.line = new three.Line(geometry, new three.LineBasicMaterial({ vertexColors: true, linewidth: 2 }));
-    this.stage.extra.add(this.line);
   }
 
   /** Shows the path, and the place that is asked for. */
   show(): void {
-    this.chart.redraw(false);
     const { places, tolerance_mm } = this.path;
-    const size = this.store.machine.size_mm;
-    const most = places.reduce((sum, place) => Math.max(sum, this.error(place)), 1e-12);
-    this.most.textContent = `${shown(most)} mm`;
-    this.colour(most);
+    const { path: by } = this.store.look;
+    const dark = this.stage.dark();
+    const most = places.reduce((sum, place) => Math.max(sum, this.value(place)), 1e-12);
+    const isOver = places.map((place) => (by === "after" ? place.error_after_mm : place.error_before_mm) > tolerance_mm);
+    if (this.coloured !== `${by} ${dark}`) {
+      this.coloured = `${by} ${dark}`;
+      this.line.colour(places.map((place) => this.value(place) / most), isOver, this.stage.theme(), dark);
+      this.explain(most, isOver, dark);
+    }
     const index = this.store.request.place ?? null;
     const place = index === null ? undefined : places[index];
+    this.chart.show(index, isOver, by);
     this.marker.visible = place !== undefined;
-    const kind = this.store.look.compensated ? "compensated" : "as programmed";
     if (place === undefined || index === null) {
-      this.said.textContent = `up to ${shown(most)} mm ${kind}, tolerance ${shown(tolerance_mm)} mm`;
-      this.window(0, -1);
+      this.figures.replaceChildren();
+      this.hint.textContent = "None yet: click on the path, on the chart or on a line, or move the slider.";
+      this.lines.show(null);
       return;
     }
     this.marker.position.copy(vector(place.position_mm));
-    this.marker.scale.setScalar(0.008 * size);
-    (this.marker.material as three.MeshBasicMaterial).color.set(byShare(this.error(place) / most));
+    this.marker.scale.setScalar(0.008 * this.stage.glyph());
+    (this.marker.material as three.MeshBasicMaterial).color.set(byShare(this.value(place) / most, dark));
+    const figures = figuresOf(place);
     this.slider.value = String(index);
-    this.said.textContent = `line ${place.line}, ${shown(place.path_mm)} mm along: ${shown(place.error_before_mm)} mm off as programmed, ${shown(place.error_after_mm)} mm compensated`;
-    this.chart.setCursor({ left: this.chart.valToPos(place.path_mm, "x"), top: 10 });
-    this.window(place.line - 1, place.line - 1);
+    this.slider.setAttribute("aria-valuetext", figures.map(([label, value]) => `${label} ${value}`).join(", "));
+    this.figures.replaceChildren(...figures.flatMap(([label, value]) => [element("dt", {}, label), element("dd", {}, value)]));
+    this.hint.textContent = this.store.nearby();
+    this.lines.show(place.line);
   }
 
-  /** The lines around one; the current one is marked. */
-  private window(middle: number, current: number): void {
-    const first = Math.max(middle - AROUND, 0);
-    const list = this.lines.slice(first, middle + AROUND);
-    this.text.start = first + 1;
-    this.text.replaceChildren(...list.map((line, i) => element("li", first + i === current ? { "aria-current": "true" } : {}, line || " ")));
-    const marked = this.text.querySelector<HTMLElement>("[aria-current]");
-    this.text.scrollTop = marked === null ? 0 : marked.offsetTop - this.text.offsetTop - this.text.clientHeight / 2;
+  /** The numbers of the colours, and how many places are over tolerance. */
+  private explain(most: number, isOver: boolean[], dark: boolean): void {
+    const { places, tolerance_mm } = this.path;
+    const { path: by } = this.store.look;
+    const text = (value: number) => (by === "force" ? `${shown(value)} N` : length(value));
+    const scale = element("i", { class: "ramp" });
+    scale.style.background = ramp(dark);
+    this.legend.replaceChildren(`Path, ${COLOURS[by]}: 0`, scale, text(most));
+    const over = isOver.filter((own) => own).length;
+    const kind = by === "after" ? "compensated" : "as programmed";
+    const error = places.reduce((sum, place) => Math.max(sum, by === "after" ? place.error_after_mm : place.error_before_mm), 0);
+    this.overall.textContent = `Up to ${length(error)} ${kind}; ${over} of ${places.length} places over tolerance, ${length(tolerance_mm)}.`;
   }
 }

@@ -3,8 +3,13 @@
 import * as three from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
-import type { State, Vec3 } from "./api";
-import { DARK, LIGHT, byShare, type Theme } from "./colour";
+import type { SolidBox, State, Vec3 } from "./api";
+import { arcArrow, arrow, showAxes } from "./arrows";
+import { boxLabel, corners, solid } from "./boxes";
+import { ellipsoids, limbColours } from "./byvalue";
+import { DARK, LIGHT, type Theme } from "./colour";
+import { frame } from "./framing";
+import { Labels, type Label } from "./labels";
 import { deflected, dispose, machine, vector } from "./machine3d";
 import { round, scaleOf, shown, type Store } from "./store";
 
@@ -16,13 +21,27 @@ export class Stage {
   private readonly scene = new three.Scene();
   private readonly camera = new three.PerspectiveCamera(32, 1, 1, 1e6);
   private readonly controls: OrbitControls;
-  private readonly labels = document.createElement("div");
+  private readonly labels = new Labels();
+  /** Points of arrows, which words do not cover. */
+  private arrows: three.Vector3[] = [];
+  private readonly triad = document.createElement("canvas");
+  /** What stands at the foot of the picture: axes, scale, legends. */
+  readonly foot = document.createElement("div");
+  /** Finds what a click at a point of the picture (px) does; null: nothing. */
+  pick: (x: number, y: number, project: (v: three.Vector3) => three.Vector3) => (() => void) | null = () => null;
   private readonly note = document.createElement("p");
   private readonly forceTip = handle("Force on the tool: drag its tip");
   private readonly toolTip = handle("Tool: drag it");
+  /** Size of arrows and marks as they are drawn now, mm. */
+  private drawn = 1;
+  private direction = new three.Vector3(0, 0, 1);
+  private readonly momentLabel = new three.Vector3();
+  private size = { width: 1, height: 1 };
   private bodies = new three.Group();
   private over = new three.Group();
   readonly extra = new three.Group();
+  /** True while the page is printed. */
+  isPrinted = false;
   private started = performance.now();
   /** Something is to be drawn: nothing moves by itself but a machine that swings. */
   private isOld = true;
@@ -34,14 +53,18 @@ export class Stage {
     private readonly place: HTMLElement,
     private readonly store: Store,
   ) {
-    this.labels.className = "labels";
+    this.foot.className = "foot";
+    this.triad.setAttribute("role", "img");
+    this.triad.setAttribute("aria-label", "Directions of the base axes x, y and z");
     this.note.className = "scale";
     this.note.setAttribute("role", "status");
-    place.append(this.renderer.domElement, this.labels, this.note);
+    this.foot.append(this.triad, this.note);
+    place.append(this.renderer.domElement, this.labels.element, this.foot);
     this.renderer.domElement.tabIndex = 0;
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.listenToKeyEvents(this.renderer.domElement);
     this.controls.addEventListener("change", () => (this.isOld = true));
+    this.controls.addEventListener("end", () => this.fit());
     this.camera.up.set(0, 0, 1);
     const sun = new three.DirectionalLight(0xffffff, 1.8);
     sun.position.set(0.6, -1, 1.6);
@@ -57,27 +80,60 @@ export class Stage {
     return this.dark() ? DARK : LIGHT;
   }
 
+  /** True if the colours are those for a dark background; paper is light. */
   dark(): boolean {
-    return this.store.look.dark ?? window.matchMedia("(prefers-color-scheme: dark)").matches;
+    return !this.isPrinted && (this.store.look.dark ?? window.matchMedia("(prefers-color-scheme: dark)").matches);
   }
 
-  /** Turns the camera, and takes all of the machine into view. */
+  /** Turns the camera, and takes all of the machine into view; or only the path, or the tool, from near. */
   look(view: string): void {
-    const box = this.box();
-    const middle = box.getCenter(new three.Vector3());
-    // Seen across, a machine is about as large as its diagonal; on a narrow screen nothing hides beside it.
-    const narrow = Math.min(this.camera.aspect, 1);
-    const share = this.camera.aspect < 1 ? 0.6 : 0.5;
-    const away = (share * box.getSize(new three.Vector3()).length()) / Math.tan((Math.PI / 360) * this.camera.fov);
-    this.camera.position.copy(middle).addScaledVector(vector(VIEWS[view] ?? VIEWS.Oblique!).normalize(), away / narrow);
-    this.controls.target.copy(middle);
+    const points = view === "Near" ? this.near() : this.points();
+    if (view !== "Near") {
+      this.direction = vector(VIEWS[view] ?? VIEWS.Oblique!).normalize();
+    }
+    const target = frame(this.camera, points, this.direction);
+    this.controls.target.copy(target);
     this.controls.update();
+    this.fit();
+  }
+
+  /** Size by which arrows and marks are drawn, mm: that of the machine, or less from near. */
+  glyph(): number {
+    return Math.min(this.store.machine.size_mm, 0.6 * this.camera.position.distanceTo(this.controls.target));
+  }
+
+  /** Draws arrows and marks in another size if the camera is much nearer or farther. */
+  private fit(): void {
+    const ratio = this.glyph() / this.drawn;
+    if (this.dragged === null && (ratio < 0.8 || ratio > 1.25)) {
+      this.drawn = this.glyph();
+      this.store.draw({});
+    }
+  }
+
+  /** Points that a view of all has in it. */
+  private points(): three.Vector3[] {
+    const { state, path } = this.store;
+    const bars = state?.scene.bars.flatMap((bar) => bar.ends_mm.map(vector)) ?? [];
+    const all = [...bars, ...(path?.places ?? []).map((own) => vector(own.position_mm)), ...this.boxes().flatMap(corners)];
+    return all.length > 0 ? all : [new three.Vector3(-500, -500, -500), new three.Vector3(500, 500, 500)];
+  }
+
+  /** Points around the path, or the tool. */
+  private near(): three.Vector3[] {
+    const places = (this.store.path?.places ?? []).map((own) => vector(own.position_mm));
+    const tool = vector(this.store.state?.tool.position_mm ?? [0, 0, 0]);
+    const box = new three.Box3().setFromPoints(places.length > 0 ? places : [tool]);
+    box.expandByScalar(places.length > 0 ? 0.02 * this.store.machine.size_mm : 0.15 * this.store.machine.size_mm);
+    return [box.min, box.max].flatMap((a) => [a, new three.Vector3(box.min.x, box.max.y, a.z), new three.Vector3(box.max.x, box.min.y, a.z)]);
   }
 
   private box(): three.Box3 {
-    const box = new three.Box3();
-    this.store.state?.scene.bars.forEach((bar) => bar.ends_mm.forEach((end) => box.expandByPoint(vector(end))));
-    return box.isEmpty() ? new three.Box3(new three.Vector3(-500, -500, -500), new three.Vector3(500, 500, 500)) : box;
+    return new three.Box3().setFromPoints(this.points());
+  }
+
+  private boxes(): SolidBox[] {
+    return this.store.look.boxes ? (this.store.path?.boxes ?? []) : [];
   }
 
   /** Draws the state anew. */
@@ -90,20 +146,21 @@ export class Stage {
       return;
     }
     dispose(this.bodies);
-    this.bodies = machine(state.scene, theme, limbColours(this.store));
+    this.bodies = machine(state.scene, theme, limbColours(this.store, this.dark()));
     this.bodies.add(floor(this.box(), theme));
     if (look.ellipsoid || look.rotary) {
       this.bodies.add(...ellipsoids(state, this.store, theme));
     }
+    this.boxes().forEach((own) => this.bodies.add(...solid(own, theme)));
     this.bodies.add(...this.load(state, theme));
     this.scene.add(this.bodies);
     this.overdraw(1);
-    this.words(state);
+    this.labels.set(this.words(state));
     const factor = scaleOf(this.store);
     const mode = look.swing ? this.store.modes?.modes[look.swing - 1] : undefined;
     const bent = mode ? `Mode ${look.swing}, ${mode.words}; its size is free. ` : state.deflected === null ? "" : `Deflection drawn ${shown(factor)} times larger. `;
     this.isOld = true;
-    this.note.textContent = `${bent}Squares of ${shown(step(this.box()))} mm`;
+    this.note.textContent = `${bent}Squares of ${shown(step(this.box()))} mm.`;
   }
 
   /** The deflected machine, at a share of the factor. */
@@ -119,13 +176,22 @@ export class Stage {
 
   /** Force and tool with their handles. */
   private load(state: State, theme: Theme): three.Object3D[] {
-    const size = this.store.machine.size_mm;
+    const size = this.glyph();
     const at = vector(state.tool.position_mm);
     const force = vector(state.force_n);
     const length = force.length() === 0 ? 0 : this.unit === null ? 0.22 * size : force.length() / this.unit;
     const out: three.Object3D[] = [];
+    this.arrows = [];
     if (length > 0) {
-      out.push(new three.ArrowHelper(force.clone().normalize(), at, length, theme.force, 0.05 * size, 0.025 * size));
+      this.arrows = Array.from({ length: 13 }, (_, k) => at.clone().addScaledVector(force, ((k / 12) * length) / force.length()));
+      out.push(...arrow(force, at, length, size, theme.force));
+    }
+    const moment = vector(state.moment_n_m);
+    if (moment.length() > 0) {
+      const { bodies, label, points } = arcArrow(moment, at, 0.09 * size, theme.moment);
+      out.push(...bodies);
+      this.arrows.push(...points);
+      this.momentLabel.copy(label);
     }
     const tip = at.clone().addScaledVector(force.length() === 0 ? new three.Vector3(0, 0, 1) : force.clone().normalize(), length === 0 ? 0.12 * size : length);
     const mayDrag = this.store.source.live && this.store.request.place === undefined;
@@ -137,27 +203,28 @@ export class Stage {
     (this.forceTip.material as three.MeshBasicMaterial).color.set(theme.force);
     (this.toolTip.material as three.MeshBasicMaterial).color.set(theme.moved);
     const triad = new three.AxesHelper(0.08 * size);
+    triad.setColors(...theme.axes);
     triad.position.copy(at);
     triad.quaternion.set(...state.tool.quaternion_xyzw);
     out.push(triad);
     return out;
   }
 
-  private words(state: State): void {
-    const list = this.store.look.names ? state.scene.words : [];
+  /** Words of the picture, the most important first. */
+  private words(state: State): Label[] {
+    const out: Label[] = [];
     const force = vector(state.force_n).length();
-    const all = list.map((word) => ({ at: vector(word.at_mm), text: word.text }));
+    const moment = vector(state.moment_n_m).length();
     if (force > 0) {
-      all.push({ at: this.forceTip.position.clone(), text: `${shown(force)} N` });
+      const beyond = vector(state.force_n).multiplyScalar((0.02 * this.glyph()) / force);
+      out.push({ at: this.forceTip.position.clone().add(beyond), text: `${shown(force)} N`, isNeeded: true });
     }
-    this.labels.replaceChildren(
-      ...all.map(({ at, text }) => {
-        const own = document.createElement("span");
-        own.textContent = text;
-        own.dataset.at = at.toArray().join(",");
-        return own;
-      }),
-    );
+    if (moment > 0) {
+      out.push({ at: this.momentLabel.clone(), text: `${shown(moment)} N m`, isNeeded: true });
+    }
+    out.push(...this.boxes().map(boxLabel));
+    const names = this.store.look.names ? state.scene.words : [];
+    return [...out, ...names.map((word) => ({ at: vector(word.at_mm), text: word.text }))];
   }
 
   private frame(): void {
@@ -169,23 +236,38 @@ export class Stage {
     if (!this.isOld) {
       return;
     }
+    this.render();
+  }
+
+  /** Draws the picture and puts the words over it. */
+  private render(): void {
     this.isOld = false;
     this.renderer.render(this.scene, this.camera);
-    const { width, height } = this.renderer.domElement.getBoundingClientRect();
-    for (const own of this.labels.children as HTMLCollectionOf<HTMLElement>) {
-      const [x, y, z] = (own.dataset.at ?? "").split(",").map(Number);
-      const at = new three.Vector3(x, y, z).project(this.camera);
-      own.style.transform = `translate(${((at.x + 1) / 2) * width + 8}px, ${((1 - at.y) / 2) * height - 8}px)`;
-      own.hidden = at.z > 1;
-    }
+    showAxes(this.triad, this.camera, this.theme());
+    const fixed = [...this.foot.children, ...this.place.querySelectorAll(".toolbar button")].map((own) => own.getBoundingClientRect());
+    this.labels.place(this.project, this.arrows, fixed);
     for (const [own, name] of [[this.toolTip, "tool"], [this.forceTip, "force"]] as const) {
-      const at = own.position.clone().project(this.camera);
-      this.place.dataset[name] = `${((at.x + 1) / 2) * width},${((1 - at.y) / 2) * height}`;
+      const at = this.project(own.position);
+      this.place.dataset[name] = `${at.x},${at.y}`;
     }
   }
 
+  /** The picture as it is now, and the element that it fills. */
+  rendered(): { canvas: HTMLCanvasElement; frame: HTMLElement } {
+    this.render();
+    return { canvas: this.renderer.domElement, frame: this.place };
+  }
+
+  /** Where a point is in the picture, px; z is above 1 behind the camera. */
+  private readonly project = (v: three.Vector3): three.Vector3 => {
+    const { width, height } = this.size;
+    const at = v.clone().project(this.camera);
+    return at.set(((at.x + 1) / 2) * width, ((1 - at.y) / 2) * height, at.z);
+  };
+
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.place;
+    this.size = { width, height };
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = Math.max(width, 1) / Math.max(height, 1);
@@ -213,12 +295,28 @@ export class Stage {
       if (this.dragged !== null) {
         canvas.setPointerCapture(event.pointerId);
         const force = vector(this.store.state?.force_n ?? [0, 0, 0]).length();
-        this.unit = (force || 100) / (0.22 * this.store.machine.size_mm);
+        this.unit = (force || 100) / (0.22 * this.glyph());
       }
     };
+    let pressed: [number, number] | null = null;
+    const picked = (event: PointerEvent) => {
+      const box = canvas.getBoundingClientRect();
+      return this.pick(event.clientX - box.left, event.clientY - box.top, this.project);
+    };
     canvas.addEventListener("pointerdown", down, first);
-    canvas.addEventListener("pointermove", (event) => this.drag(event));
-    canvas.addEventListener("pointerup", () => {
+    canvas.addEventListener("pointerdown", (event) => (pressed = this.dragged === null ? [event.clientX, event.clientY] : null));
+    canvas.addEventListener("pointermove", (event) => {
+      this.drag(event);
+      if (event.buttons === 0) {
+        canvas.style.cursor = picked(event) === null ? "" : "pointer";
+      }
+    });
+    canvas.addEventListener("pointerup", (event) => {
+      // A click does not move; a turn of the view does.
+      if (pressed !== null && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) < 4) {
+        picked(event)?.();
+      }
+      pressed = null;
       if (this.dragged !== null) {
         this.dragged = null;
         this.unit = null;
@@ -270,55 +368,4 @@ function floor(box: three.Box3, theme: Theme): three.GridHelper {
   const middle = box.getCenter(new three.Vector3());
   grid.position.set(Math.round(middle.x / side) * side, Math.round(middle.y / side) * side, box.min.z);
   return grid;
-}
-
-/** Colour of each limb by what is asked for. */
-export function limbColours(store: Store): Map<number, string> {
-  const found = new Map<number, string>();
-  const values = limbValues(store);
-  const most = Math.max(...values, 1e-300);
-  values.forEach((value, limb) => found.set(limb, byShare(value / most)));
-  return found;
-}
-
-/** Value of each limb by what is asked for; empty for plain colours. */
-export function limbValues(store: Store): number[] {
-  const { state, look, machine: own } = store;
-  if (state === null || look.colours === "none") {
-    return [];
-  }
-  return own.limbs.map((limb) => {
-    const load = state.limb_loads.find((other) => other.limb === limb);
-    switch (look.colours) {
-      case "share":
-        return state.shares.filter((share) => share.limb === limb).reduce((sum, share) => sum + share.percent, 0);
-      case "load":
-        return Math.hypot(...(load?.force_n ?? [0, 0, 0]));
-      default:
-        return 100 * (load?.share_to_buckling ?? 0);
-    }
-  });
-}
-
-/** Ellipsoids whose half axes are the displacements by a force in any direction, or the turns by a moment. */
-function ellipsoids(state: State, store: Store, theme: Theme): three.Object3D[] {
-  const { machine: own, look } = store;
-  const one = (axes: Vec3[], values: number[], colour: string) => {
-    const most = Math.max(...values, 1e-300);
-    const mesh = new three.Mesh(new three.SphereGeometry(1, 32, 20), new three.MeshStandardMaterial({ color: colour, transparent: true, opacity: 0.35, depthWrite: false }));
-    const [x, y, z] = axes.map(vector);
-    const basis = new three.Matrix4().makeBasis(x!, y!, x!.clone().cross(y!).dot(z!) < 0 ? z!.negate() : z!);
-    mesh.setRotationFromMatrix(basis);
-    mesh.scale.set(...(values.map((v) => Math.max((0.14 * own.size_mm * v) / most, 0.002 * own.size_mm)) as Vec3));
-    mesh.position.copy(vector(state.tool.position_mm));
-    return mesh;
-  };
-  const out: three.Object3D[] = [];
-  if (look.ellipsoid && state.compliance) {
-    out.push(one(state.compliance.axes, state.compliance.um_per_n, theme.force));
-  }
-  if (look.rotary && state.rotary_compliance) {
-    out.push(one(state.rotary_compliance.axes, state.rotary_compliance.urad_per_n_m, theme.moved));
-  }
-  return out;
 }

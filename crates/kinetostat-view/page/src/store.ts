@@ -1,8 +1,13 @@
 // What is shown: the state that is asked for, its answer, and how it is drawn. All of it stands in the address of the page.
 
+import { keep } from "./address";
+import { nearest } from "./api";
 import type { Machine, Modes, Path, Scene, Source, State, StateRequest } from "./api";
 
 export type Colours = "none" | "share" | "load" | "buckling";
+
+/** What the path of a program is coloured by. */
+export type PathColour = "before" | "after" | "force";
 
 /** How a state is drawn. */
 export interface Look {
@@ -14,7 +19,8 @@ export interface Look {
   names: boolean;
   /** What swings: nothing, the deflection, or a mode by its number from 1. */
   swing: number | null;
-  compensated: boolean;
+  path: PathColour;
+  boxes: boolean;
   dark: boolean | null;
 }
 
@@ -27,7 +33,8 @@ export class Store {
     colours: "none",
     names: true,
     swing: null,
-    compensated: false,
+    path: "before",
+    boxes: true,
     dark: null,
   };
   state: State | null = null;
@@ -63,7 +70,7 @@ export class Store {
     this.request = isPlace ? { force_n, moment_n_m, ...request } : { ...this.request, ...request };
     // Of a place of the program the load is the program's.
     if (typeof request.place === "number") {
-      this.request = { place: this.source.nearest(request.place) };
+      this.request = { place: request.place };
     }
     void this.ask();
   }
@@ -107,14 +114,23 @@ export class Store {
     this.asking = false;
   }
 
+  /** Which state is shown where not all have been stored; empty where it is that of the place. */
+  nearby(): string {
+    const { stored } = this.source;
+    const { place } = this.request;
+    const own = stored === null || typeof place !== "number" ? null : nearest(stored, place);
+    if (stored === null || own === null || own === place) {
+      return "";
+    }
+    return `Machine drawn at line ${this.path?.places[own]?.line}: the nearest of ${stored.length} stored places.`;
+  }
+
   link(): string {
     return window.location.href.split("#")[0] + this.hash();
   }
 
   private changed(): void {
-    if (this.source.live) {
-      window.history.replaceState(null, "", this.hash());
-    }
+    keep(this.hash());
     this.listeners.forEach((listener) => listener());
   }
 
@@ -133,9 +149,6 @@ export class Store {
       }
     };
     this.request = read<StateRequest>("state", {});
-    if (typeof this.request.place === "number") {
-      this.request.place = this.source.nearest(this.request.place);
-    }
     this.look = read("look", this.look);
   }
 }

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { spawn, spawnSync } from "node:child_process";
-import { mkdtempSync, readFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -27,8 +27,8 @@ async function served(...words) {
   }
 }
 
-/** A page that keeps what goes wrong on it. */
-async function opened(url, options = {}) {
+/** A page that keeps what goes wrong on it; with another path than the server's if one is given. */
+async function opened(url, { path, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
   const page = await context.newPage();
   page.wrong = [];
@@ -36,10 +36,23 @@ async function opened(url, options = {}) {
   page.on("console", (message) => message.type() === "error" && page.wrong.push(message.text()));
   page.on("pageerror", (error) => page.wrong.push(String(error)));
   page.on("request", (request) => page.asked.push(request.url()));
+  if (path !== undefined) {
+    await page.route("**/api/path", (route) => route.fulfill({ json: path }));
+  }
   await page.goto(url);
   await page.getByRole("heading", { level: 1 }).waitFor();
   return page;
 }
+
+/** Number of colours of a canvas. */
+const colours = (page, selector) =>
+  page.evaluate((own) => {
+    const flat = document.createElement("canvas");
+    [flat.width, flat.height] = [120, 80];
+    const context = flat.getContext("2d");
+    context.drawImage(document.querySelector(own), 0, 0, 120, 80);
+    return new Set(new Uint32Array(context.getImageData(0, 0, 120, 80).data.buffer)).size;
+  }, selector);
 
 const figure = (page, label) => page.locator("dt", { hasText: label }).first().locator("xpath=following-sibling::dd[1]").innerText();
 
@@ -126,32 +139,242 @@ test("a place out of reach is said, and the page goes on", async () => {
   assert.deepEqual(refused, []);
 });
 
+/** The path of a job as the server gives it. */
+const pathOf = async (url) => (await fetch(`${url}api/path`)).json();
+
+const digits = (x) => String(Number(x.toPrecision(3)));
+/** An error as it is to be read: um below 0.1 mm, mm above. */
+const error = (mm) => (mm < 0.1 ? `${digits(1000 * mm)} um` : `${digits(mm)} mm`);
+const force = (place) => `${digits(Math.hypot(...place.force_n))} N`;
+const ofPlace = (page, label) => page.locator(".placeside dt", { hasText: label }).locator("xpath=following-sibling::dd[1]").innerText();
+const slider = (page) => page.getByLabel("Place along the path");
+const worstOf = (places, value) => places.reduce((worst, place, i) => (value(place) > value(places[worst]) ? i : worst), 0);
+const at = (page, index) => page.waitForFunction((text) => document.querySelector("[aria-label='Place along the path']").value === text && document.querySelector(".placeside dd"), String(index));
+
 test("a program is followed in chart, lines and space", async () => {
-  const page = await opened(await served("job.toml"));
-  const said = page.locator("#path p[role=status]");
-  assert.match(await said.innerText(), /up to 0\.77\d mm as programmed, tolerance \S+ mm/);
+  const url = await served("job.toml");
+  const { places, tolerance_mm } = await pathOf(url);
+  const page = await opened(url);
+  const most = Math.max(...places.map((place) => place.error_before_mm));
+  const over = places.filter((place) => place.error_before_mm > tolerance_mm).length;
+  assert.equal(await page.locator(".overall").innerText(), `Up to ${error(most)} as programmed; ${over} of ${places.length} places over tolerance, ${error(tolerance_mm)}.`);
+  assert.ok((await page.locator(".pathlegend").innerText()).endsWith(error(most)));
   await page.getByRole("button", { name: "Worst place" }).click();
   await page.locator("li[aria-current]", { hasText: "G3" }).waitFor();
-  assert.match(await said.innerText(), /line 8/);
+  const worst = worstOf(places, (place) => place.error_before_mm);
+  await at(page, worst);
+  const shownFigures = async (index) => {
+    const place = places[index];
+    assert.equal(await ofPlace(page, "Line"), String(place.line));
+    assert.equal(await ofPlace(page, "Error as programmed"), error(place.error_before_mm));
+    assert.equal(await ofPlace(page, "Error compensated"), error(place.error_after_mm));
+    assert.equal(await ofPlace(page, "Force"), force(place));
+  };
+  await shownFigures(worst);
+  // The chart: its tip says what the list says, and a click goes there.
   const chart = await page.locator(".u-over").boundingBox();
+  await page.mouse.move(chart.x + 0.9 * chart.width, chart.y + 10);
+  const tip = await page.locator(".tip").innerText();
   await page.mouse.click(chart.x + 0.9 * chart.width, chart.y + 10);
   await page.waitForFunction(() => document.querySelector("li[aria-current]")?.textContent.includes("X25"));
-  await page.getByRole("button", { name: "Play" }).click();
-  const before = await said.innerText();
-  await page.waitForFunction((text) => document.querySelector("#path p[role=status]").innerText !== text, before);
-  await page.getByRole("button", { name: "Stop" }).click();
+  const clicked = Number(await slider(page).inputValue());
+  assert.ok(tip.includes(`Error as programmed: ${error(places[clicked].error_before_mm)}`), tip);
+  await shownFigures(clicked);
+  // A line, by click and by keys.
+  await page.locator(".program li", { hasText: "plunge" }).click();
+  await at(page, places.findIndex((place) => place.line === 7));
+  await page.locator(".program").press("ArrowDown");
+  await at(page, places.findIndex((place) => place.line === 8));
+  // The path itself: the tool is at the place that is shown.
+  await page.getByRole("button", { name: "Near path" }).click();
+  const target = places.findIndex((place, i) => place.line === 8 && i > 0.3 * places.length);
+  await slider(page).fill(String(target));
+  await at(page, target);
+  await page.waitForTimeout(500);
+  const [x, y] = (await page.locator("#stage").getAttribute("data-tool")).split(",").map(Number);
+  await page.getByRole("button", { name: "Worst place" }).click();
+  await at(page, worst);
+  const box = await page.locator("canvas").first().boundingBox();
+  await page.mouse.click(box.x + x, box.y + y);
+  await page.waitForFunction(([goal]) => Math.abs(document.querySelector("[aria-label='Place along the path']").value - goal) < 8, [target]);
   await page.screenshot({ path: join(shots, "path.png") });
   assert.deepEqual(page.wrong, []);
 });
 
-test("an exported file asks nobody and shows what it holds", async () => {
+test("the path is coloured by an error or by the force, and the chart follows", async () => {
+  const url = await served("job.toml");
+  const { places } = await pathOf(url);
+  const page = await opened(url);
+  const chart = page.locator(".chart");
+  assert.match(await chart.getAttribute("aria-label"), / in mm,/);
+  for (const [colour, value, text] of [
+    ["after", (place) => place.error_after_mm, error],
+    ["force", (place) => Math.hypot(...place.force_n), (n) => `${digits(n)} N`],
+  ]) {
+    await page.getByLabel("Colour of the path").selectOption(colour);
+    await page.getByRole("button", { name: "Worst place" }).click();
+    const worst = worstOf(places, value);
+    await at(page, worst);
+    assert.ok((await page.locator(".pathlegend").innerText()).endsWith(text(value(places[worst]))), colour);
+    assert.match(await chart.getAttribute("aria-label"), colour === "after" ? / in um,/ : / in mm,/);
+  }
+  assert.deepEqual(page.wrong, []);
+});
+
+test("a program is played evenly, or with its times", async () => {
+  const url = await served("job.toml");
+  const path = await pathOf(url);
+  path.places.forEach((place) => (place.time_s = null));
+  const evenly = await opened(url, { path });
+  assert.deepEqual(await evenly.getByLabel("Speed").locator("option").allInnerTexts(), ["in 20 s"]);
+  await slider(evenly).focus();
+  await evenly.keyboard.press(" ");
+  await evenly.waitForFunction(() => document.querySelector("[aria-label='Place along the path']").value > 20);
+  await evenly.keyboard.press(" ");
+  await evenly.getByRole("button", { name: "Play" }).waitFor();
+  const value = Number(await slider(evenly).inputValue());
+  await evenly.keyboard.press("ArrowRight");
+  await at(evenly, value + 1);
+  assert.equal(await ofPlace(evenly, "Time"), "not given");
+  // The first half of the places takes no second, the other half a minute.
+  const half = Math.floor(path.places.length / 2);
+  path.places.forEach((place, i) => (place.time_s = 3 + (i < half ? (0.5 * i) / half : 0.5 + (60 * (i - half)) / half)));
+  const timed = await opened(url, { path });
+  await timed.getByLabel("Speed").selectOption("1x");
+  await timed.getByRole("button", { name: "Play" }).click();
+  await timed.waitForFunction((goal) => document.querySelector("[aria-label='Place along the path']").value >= goal, half);
+  await timed.getByRole("button", { name: "Stop" }).click();
+  const index = Number(await slider(timed).inputValue());
+  assert.ok(index < half + 0.1 * path.places.length, `${index} of ${path.places.length}`);
+  assert.equal(await ofPlace(timed, "Time"), `${path.places[index].time_s.toFixed(2)} s`);
+  await timed.getByLabel("Speed").selectOption("100x");
+  await timed.getByRole("button", { name: "Play" }).click();
+  await at(timed, path.places.length - 1);
+  await timed.getByRole("button", { name: "Play" }).waitFor();
+  assert.deepEqual([...evenly.wrong, ...timed.wrong], []);
+});
+
+test("the summary of the run is that of the command", async () => {
+  const url = await served("job.toml");
+  const { headline } = await pathOf(url);
+  const page = await opened(url);
+  const box = page.locator(".summary");
+  assert.equal(await box.locator("strong").innerText(), headline[0].trim());
+  assert.ok(await box.locator("pre").isHidden());
+  await box.locator("summary").click();
+  assert.ok(await box.locator("pre").isVisible());
+  const words = (text) => text.split(/\s+/).filter((word) => word !== "");
+  const read = [...(await box.locator("p").allInnerTexts()), await box.locator("pre").innerText()];
+  assert.deepEqual(words(read.join(" ")), words(headline.join(" ")));
+  assert.deepEqual(page.wrong, []);
+});
+
+test("a moment is an arc with its value, and axes and floor have words", async () => {
+  const page = await opened(await served("heavy_6r"));
+  for (const [axis, value] of [["y", "3"], ["z", "-4"]]) {
+    await page.getByLabel(`Moment ${axis}, N m`).fill(value);
+    await page.keyboard.press("Tab");
+  }
+  await page.locator(".labels span", { hasText: /^5 N m$/ }).waitFor();
+  assert.match(await page.locator(".scale").innerText(), /Squares of \d+ mm/);
+  assert.ok(await page.getByRole("img", { name: "base axes x, y and z" }).isVisible());
+  const [saved] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Save picture" }).click()]);
+  assert.equal(saved.suggestedFilename(), "heavy_6r.png");
+  assert.deepEqual(page.wrong, []);
+});
+
+test("boxes of a job are drawn with their names, where there are any", async () => {
+  const url = await served("job.toml");
+  const path = await pathOf(url);
+  const corner_mm = path.places[0].position_mm;
+  const edges_mm = [[80, 0, 0], [0, 60, 0], [0, 0, 30]];
+  path.boxes = [{ name: "blank", kind: "stock", corner_mm, edges_mm }, { name: "clamp", kind: "obstacle", corner_mm: corner_mm.map((x) => x + 100), edges_mm }];
+  const page = await opened(url, { path });
+  await page.getByRole("button", { name: "Near path" }).click();
+  const name = page.locator(".labels span", { hasText: "blank (stock)" });
+  await name.waitFor();
+  await page.getByLabel("Stock, part and obstacles").uncheck();
+  await name.waitFor({ state: "detached" });
+  const without = await opened(url, { path: { ...path, boxes: [] } });
+  assert.equal(await without.getByLabel("Stock, part and obstacles").count(), 0);
+  assert.deepEqual([...page.wrong, ...without.wrong], []);
+});
+
+/** The file of the job, with all that it holds. */
+function exported() {
   const cwd = join(folder, "kinetostat-demo");
-  assert.equal(spawnSync(command, ["view", "job.toml", "--export", "page.html"], { cwd }).status, 0);
-  const page = await opened(`file://${join(cwd, "page.html")}`);
+  assert.equal(spawnSync(command, ["view", "job.toml", "--export", "page.html", "--force-overwrite"], { cwd }).status, 0);
+  const file = join(cwd, "page.html");
+  const text = readFileSync(file, "utf8");
+  return { file, text, held: JSON.parse(text.split('<script id="kinetostat-data" type="application/json">')[1].split("</script>")[0]) };
+}
+
+test("an exported file asks nobody and shows what it holds", async () => {
+  const { file, held } = exported();
+  const page = await opened(`file://${file}`);
   await page.getByRole("button", { name: "Worst place" }).click();
   await page.locator("li[aria-current]").waitFor();
   assert.ok(await page.getByLabel("Force x, N").isDisabled());
-  assert.deepEqual(page.asked.filter((url) => !url.startsWith("file:") && !url.startsWith("data:")), []);
+  assert.equal(await page.getByRole("button", { name: "Copy link" }).count(), 0);
+  // Figures of a place are its own; the machine is drawn at the nearest stored one.
+  const stored = held.states.map((own) => own.place);
+  const between = stored[2] + 1;
+  assert.ok(!stored.includes(between), "some places have no state");
+  await slider(page).fill(String(between));
+  await at(page, between);
+  const { places } = held.path;
+  assert.equal(await ofPlace(page, "Error as programmed"), error(places[between].error_before_mm));
+  assert.ok((await page.locator(".placeside p").innerText()).includes(`at line ${places[stored[2]].line}: the nearest of ${stored.length} stored places`));
+  const { state } = held.states[2];
+  assert.equal(await page.getByLabel("Tool x, mm").inputValue(), String(Number(state.tool.position_mm[0].toFixed(4))));
+  await slider(page).fill(String(stored[3]));
+  await at(page, stored[3]);
+  assert.equal(await page.locator(".placeside p").innerText(), "");
+  assert.deepEqual(page.asked.filter((url) => !/^(file|data|blob):/.test(url)), []);
+  assert.deepEqual(page.wrong, []);
+});
+
+test("a page in a frame of a report works, with its panel closed at first", async () => {
+  const { text } = exported();
+  const report = join(folder, "report.html");
+  const quoted = text.replaceAll("&", "&amp;").replaceAll('"', "&quot;");
+  writeFileSync(report, `<!doctype html><html lang="en"><title>Report</title><h1>Report</h1><iframe title="Machine" width="960" height="640" srcdoc="${quoted}"></iframe></html>`);
+  const page = await opened(`file://${report}`);
+  const frame = page.frameLocator("iframe");
+  await frame.getByRole("button", { name: "Worst place" }).click();
+  await frame.locator("li[aria-current]").waitFor();
+  assert.ok(await frame.locator("#panel").isHidden());
+  await page.screenshot({ path: join(shots, "frame.png") });
+  await frame.getByRole("button", { name: "Show panel" }).click();
+  assert.ok(await frame.getByRole("heading", { level: 1 }).isVisible());
+  assert.equal(await frame.getByRole("button", { name: "Copy link" }).count(), 0);
+  await frame.getByRole("button", { name: "Hide panel" }).press("Enter");
+  assert.ok(await frame.locator("#panel").isHidden());
+  assert.deepEqual(page.wrong, []);
+});
+
+test("paper has the picture and the figures", async () => {
+  const { file } = exported();
+  const page = await opened(`file://${file}`, { colorScheme: "dark" });
+  await page.getByRole("button", { name: "Worst place" }).click();
+  await page.locator("li[aria-current]").waitFor();
+  await page.getByRole("button", { name: "Hide panel" }).click();
+  await page.emulateMedia({ media: "print" });
+  await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
+  assert.ok(await page.locator("canvas.print").isVisible());
+  assert.ok((await colours(page, "canvas.print")) > 50);
+  const paper = await page.evaluate(() => document.querySelector("canvas.print").getContext("2d").getImageData(5, 5, 1, 1).data[0]);
+  assert.ok(paper > 200, "paper is light");
+  for (const seen of ["#panel dl", ".placeside dl", ".chart canvas", ".summary"]) {
+    assert.ok(await page.locator(seen).first().isVisible(), seen);
+  }
+  for (const hidden of ["input[type=range]", "button", "select", ".program"]) {
+    assert.equal(await page.locator(`${hidden}:visible`).count(), 0, hidden);
+  }
+  await page.evaluate(() => window.dispatchEvent(new Event("afterprint")));
+  assert.equal(await page.locator("canvas.print").count(), 0);
+  assert.equal(await page.locator("html").getAttribute("data-theme"), "dark");
+  await page.pdf({ path: join(shots, "paper.pdf") });
   assert.deepEqual(page.wrong, []);
 });
 
@@ -162,6 +385,9 @@ for (const [name, options] of [
 ]) {
   test(`nothing bars the way (${name})`, async () => {
     const page = await opened(await served("job.toml"), { ...options, bypassCSP: true });
+    await page.getByRole("button", { name: "Worst place" }).click();
+    await page.locator("li[aria-current]").waitFor();
+    await page.locator(".summary summary").click();
     await page.screenshot({ path: join(shots, `${name}.png`) });
     await page.evaluate(axe);
     const { violations } = await page.evaluate(() => window.axe.run());
@@ -169,14 +395,6 @@ for (const [name, options] of [
     const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
     assert.equal(wide, 0, "nothing sticks out");
     // The picture has a machine in it.
-    const colours = await page.evaluate(() => {
-      const canvas = document.querySelector("canvas");
-      const flat = document.createElement("canvas");
-      [flat.width, flat.height] = [120, 80];
-      const context = flat.getContext("2d");
-      context.drawImage(canvas, 0, 0, 120, 80);
-      return new Set(new Uint32Array(context.getImageData(0, 0, 120, 80).data.buffer)).size;
-    });
-    assert.ok(colours > 50, `${colours} colours`);
+    assert.ok((await colours(page, "canvas")) > 50);
   });
 }
