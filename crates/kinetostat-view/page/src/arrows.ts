@@ -65,6 +65,11 @@ export function showAxes(canvas: HTMLCanvasElement, camera: three.Camera, theme:
   const context = canvas.getContext("2d")!;
   context.scale(ratio, ratio);
   context.translate(SIDE / 2, SIDE / 2);
+  context.globalAlpha = 0.7;
+  context.fillStyle = theme.back;
+  context.arc(0, 0, SIDE / 2, 0, 2 * Math.PI);
+  context.fill();
+  context.globalAlpha = 1;
   [context.lineWidth, context.lineCap, context.textAlign, context.textBaseline] = [2.5, "round", "center", "middle"];
   context.font = "700 13px system-ui, sans-serif";
   const turn = camera.quaternion.clone().invert();

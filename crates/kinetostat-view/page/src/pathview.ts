@@ -48,6 +48,7 @@ export class PathView {
     this.lines = new ProgramLines(path, (index) => this.go(index));
     this.line = new PathLine(places);
     this.slider.max = String(Math.max(places.length - 1, 0));
+    this.slider.value = "0";
     this.slider.addEventListener("input", () => this.go(this.slider.valueAsNumber));
     this.slider.addEventListener("keydown", (event) => {
       if (event.key === " ") {

@@ -3,6 +3,7 @@
 import * as three from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
+import { isEmbedded } from "./address";
 import type { SolidBox, State, Vec3 } from "./api";
 import { arcArrow, arrow, showAxes } from "./arrows";
 import { boxLabel, corners, solid } from "./boxes";
@@ -34,6 +35,8 @@ export class Stage {
   private readonly toolTip = handle("Tool: drag it");
   /** Size of arrows and marks as they are drawn now, mm. */
   private drawn = 1;
+  /** View that was chosen last; null once the camera is turned by hand. */
+  private view: string | null = null;
   private direction = new three.Vector3(0, 0, 1);
   private readonly momentLabel = new three.Vector3();
   private size = { width: 1, height: 1 };
@@ -64,7 +67,15 @@ export class Stage {
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.listenToKeyEvents(this.renderer.domElement);
     this.controls.addEventListener("change", () => (this.isOld = true));
+    this.controls.addEventListener("start", () => (this.view = null));
     this.controls.addEventListener("end", () => this.fit());
+    if (isEmbedded()) {
+      // The wheel scrolls the page around until somebody works here.
+      const canvas = this.renderer.domElement;
+      this.controls.enableZoom = false;
+      canvas.addEventListener("focus", () => (this.controls.enableZoom = true));
+      canvas.addEventListener("blur", () => (this.controls.enableZoom = false));
+    }
     this.camera.up.set(0, 0, 1);
     const sun = new three.DirectionalLight(0xffffff, 1.8);
     sun.position.set(0.6, -1, 1.6);
@@ -87,6 +98,7 @@ export class Stage {
 
   /** Turns the camera, and takes all of the machine into view; or only the path, or the tool, from near. */
   look(view: string): void {
+    this.view = view;
     const points = view === "Near" ? this.near() : this.points();
     if (view !== "Near") {
       this.direction = vector(VIEWS[view] ?? VIEWS.Oblique!).normalize();
@@ -273,6 +285,9 @@ export class Stage {
     this.camera.aspect = Math.max(width, 1) / Math.max(height, 1);
     this.camera.updateProjectionMatrix();
     this.isOld = true;
+    if (this.view !== null) {
+      this.look(this.view);
+    }
   }
 
   /** What is under the pointer, and where the pointer is in the plane through a point that faces the camera. */

@@ -14,6 +14,10 @@ export function unitOf(mm: number): LengthUnit {
 
 /** A length with its unit. */
 export function length(mm: number): string {
+  // JSON has no NaN.
+  if (!Number.isFinite(mm)) {
+    return "not known";
+  }
   const unit = unitOf(mm);
   return `${shown(mm * unit.perMm)} ${unit.word}`;
 }

@@ -345,7 +345,11 @@ test("a page in a frame of a report works, with its panel closed at first", asyn
   await frame.locator("li[aria-current]").waitFor();
   assert.ok(await frame.locator("#panel").isHidden());
   await page.screenshot({ path: join(shots, "frame.png") });
-  await frame.getByRole("button", { name: "Show panel" }).click();
+  await frame.getByRole("button", { name: "Show panel" }).press("Enter");
+  const inner = page.frames()[1];
+  await inner.evaluate(axe);
+  const { violations } = await inner.evaluate(() => window.axe.run());
+  assert.deepEqual(violations.map((own) => `${own.id}: ${own.nodes[0].html}`), []);
   assert.ok(await frame.getByRole("heading", { level: 1 }).isVisible());
   assert.equal(await frame.getByRole("button", { name: "Copy link" }).count(), 0);
   await frame.getByRole("button", { name: "Hide panel" }).press("Enter");
