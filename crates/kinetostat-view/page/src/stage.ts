@@ -17,6 +17,9 @@ import { round, scaleOf, shown, type Store } from "./store";
 /** Directions from which the machine is looked at, by the button's word. */
 export const VIEWS: Record<string, Vec3> = { Oblique: [1, -1.4, 0.8], Front: [0, -1, 0], Side: [1, 0, 0], Top: [0, 0, 1] };
 
+/** Length of the arrow of a force, as a share of the size of the machine. */
+const ARROW = 0.22;
+
 export class Stage {
   readonly renderer = new three.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
   private readonly scene = new three.Scene();
@@ -99,7 +102,7 @@ export class Stage {
   /** Turns the camera, and takes all of the machine into view; or only the path, or the tool, from near. */
   look(view: string): void {
     this.view = view;
-    const points = view === "Near" ? this.near() : this.points();
+    const points = view === "Near" ? this.near() : [...this.points(), ...this.tip()];
     if (view !== "Near") {
       this.direction = vector(VIEWS[view] ?? VIEWS.Oblique!).normalize();
     }
@@ -129,6 +132,13 @@ export class Stage {
     const bars = state?.scene.bars.flatMap((bar) => bar.ends_mm.map(vector)) ?? [];
     const all = [...bars, ...(path?.places ?? []).map((own) => vector(own.position_mm)), ...this.boxes().flatMap(corners)];
     return all.length > 0 ? all : [new three.Vector3(-500, -500, -500), new three.Vector3(500, 500, 500)];
+  }
+
+  /** The tip of the arrow of the force, if there is one. */
+  private tip(): three.Vector3[] {
+    const { position_mm } = this.store.state?.tool ?? { position_mm: [0, 0, 0] };
+    const force = vector(this.store.state?.force_n ?? [0, 0, 0]);
+    return force.length() === 0 ? [] : [vector(position_mm).addScaledVector(force.normalize(), ARROW * this.store.machine.size_mm)];
   }
 
   /** Points around the path, or the tool. */
@@ -191,7 +201,7 @@ export class Stage {
     const size = this.glyph();
     const at = vector(state.tool.position_mm);
     const force = vector(state.force_n);
-    const length = force.length() === 0 ? 0 : this.unit === null ? 0.22 * size : force.length() / this.unit;
+    const length = force.length() === 0 ? 0 : this.unit === null ? ARROW * size : force.length() / this.unit;
     const out: three.Object3D[] = [];
     this.arrows = [];
     if (length > 0) {
@@ -310,7 +320,7 @@ export class Stage {
       if (this.dragged !== null) {
         canvas.setPointerCapture(event.pointerId);
         const force = vector(this.store.state?.force_n ?? [0, 0, 0]).length();
-        this.unit = (force || 100) / (0.22 * this.glyph());
+        this.unit = (force || 100) / (ARROW * this.glyph());
       }
     };
     let pressed: [number, number] | null = null;
