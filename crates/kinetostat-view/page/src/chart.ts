@@ -15,7 +15,7 @@ export const COMPENSATED = "var(--compensated)";
 export function figuresOf(place: Place): [string, string][] {
   return [
     ["Line", String(place.line)],
-    ["Path", `${shown(place.path_mm)} mm`],
+    ["Path", `${place.path_mm.toFixed(1)} mm`],
     ["Time", typeof place.time_s === "number" ? time(place.time_s) : "not given"],
     ["Error as programmed", length(place.error_before_mm)],
     ["Error compensated", length(place.error_after_mm)],
@@ -39,13 +39,7 @@ export class ErrorChart {
     const css = (name: string) => getComputedStyle(document.documentElement).getPropertyValue(name);
     const ink = () => css("--ink");
     const axis = { stroke: ink, grid: { stroke: () => css("--line"), width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", labelSize: 15, labelGap: 0 };
-    const errors = (error: (place: Place) => number) => places.map(error);
-    const data: uPlot.AlignedData = [
-      places.map((place) => place.path_mm),
-      errors((place) => place.error_before_mm),
-      errors((place) => place.error_after_mm),
-      errors(() => tolerance_mm),
-    ];
+    const data: uPlot.AlignedData = [places.map((place) => place.path_mm), places.map((place) => place.error_before_mm), places.map((place) => place.error_after_mm), places.map(() => tolerance_mm)];
     const series: uPlot.Series[] = [
       {},
       { stroke: () => css("--programmed"), width: 1.5 },

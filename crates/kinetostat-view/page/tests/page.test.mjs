@@ -170,6 +170,7 @@ test("a program is followed in chart, lines and space", async () => {
     assert.equal(await ofPlace(page, "Line"), String(place.line));
     assert.equal(await ofPlace(page, "Error as programmed"), error(place.error_before_mm));
     assert.equal(await ofPlace(page, "Error compensated"), error(place.error_after_mm));
+    assert.equal(await ofPlace(page, "Path"), `${place.path_mm.toFixed(1)} mm`);
     assert.equal(await ofPlace(page, "Force"), force(place));
   };
   await shownFigures(worst);
