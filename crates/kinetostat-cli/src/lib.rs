@@ -2,7 +2,7 @@
 //! it should.
 //!
 //! One folder per command; commands do not know each other. Below them, from the top down, what they share:
-//! `program` (a run along a program), `vibration` (a machine that vibrates at a place), `end_condition` (how a tool is held), `job` (the query of such a run), `place`
+//! `shown` (machine and path in three dimensions), `program` (a run along a program), `vibration` (a machine that vibrates at a place), `end_condition` (how a tool is held), `job` (the query of such a run), `place`
 //! (one place in the workspace), `machine` (what is said of a machine), `options`, `files`, and `ui`, which prints
 //! and knows the exit codes. `command_line` stands above all.
 //!
@@ -46,13 +46,13 @@ mod reproduce;
 mod schema;
 mod shares;
 mod shell;
+mod shown;
 mod start;
 mod stiffness;
 mod tolerance;
 mod ui;
 mod verify;
 mod vibration;
-#[cfg(feature = "view")]
 mod view;
 
 use std::ffi::OsString;
@@ -249,7 +249,6 @@ fn run(command: Command, given: &Given) -> Answer<()> {
         Command::Import(args) => import::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),
         Command::Model(args) => model::run(&args),
-        #[cfg(feature = "view")]
         Command::View(args) => view::run(&args),
         Command::Schema(args) => schema::run(&args),
         Command::Explain(args) => explain::run(&args),

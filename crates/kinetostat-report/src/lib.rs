@@ -88,17 +88,35 @@ pub fn html(result: &RunResult) -> Result<String, ReportError> {
     Ok(page::render(&Shown::of_result(result))?)
 }
 
+/// The machine of a run, for its report.
+#[derive(Clone, Debug)]
+pub struct MachineShown {
+    /// A page in three dimensions with its results in it, HTML: it asks no server.
+    pub page: String,
+    /// The machine on paper, SVG.
+    pub picture: String,
+    /// Line of the program that the picture shows.
+    pub line: usize,
+}
+
 /// The report of a run, drawn from all of its points: curves and paths hide nothing, however long the program is. Where the turn of a
-/// round tool about its axis was chosen, with the picture of that turn ([`turns_svg`]) in it, and with what was chosen in words.
+/// round tool about its axis was chosen, with the picture of that turn ([`turns_svg`]) in it, and with what was chosen in words; with the
+/// machine, where it is given, in a frame that may run its own script and nothing else.
 ///
 /// # Errors
 ///
 /// [`ReportError::Template`] if the page template cannot be filled.
-pub fn html_of_run_and_turns(
+pub fn html_of_run(
     run: &Run,
     turns: Option<(&TurnChoice, &str)>,
+    machine: Option<&MachineShown>,
 ) -> Result<String, ReportError> {
-    Ok(page::render(&Shown::of_run(run).with_turns(turns))?)
+    let shown = Shown {
+        turns,
+        machine,
+        ..Shown::of_run(run)
+    };
+    Ok(page::render(&shown)?)
 }
 
 /// The cut of a program as one picture: the stock seen from above, where there is one, and below it force with its band,

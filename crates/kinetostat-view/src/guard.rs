@@ -8,7 +8,8 @@ use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::Response;
 
-use crate::refused::{MOST_BYTES, Refused, problem};
+use crate::problem::{MOST_BYTES, problem};
+use crate::refused::Refused;
 
 /// Names under which this server may be asked, with its port.
 #[derive(Clone, Debug)]

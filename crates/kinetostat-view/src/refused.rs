@@ -1,11 +1,6 @@
-//! Refusals, and their form for the page.
+//! Refusals.
 
-use axum::http::{StatusCode, header};
-use axum::response::{IntoResponse, Response};
 use serde::Serialize;
-
-/// Largest request, bytes: a state has some hundred numbers.
-pub(crate) const MOST_BYTES: usize = 64 << 10;
 
 /// Reason why there is no answer.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -24,10 +19,4 @@ impl Refused {
             message: message.into(),
         }
     }
-}
-
-/// An error as the page reads it.
-pub(crate) fn problem(status: StatusCode, refused: &Refused) -> Response {
-    let body = serde_json::json!({ "error": refused }).to_string();
-    (status, [(header::CONTENT_TYPE, "application/json")], body).into_response()
 }

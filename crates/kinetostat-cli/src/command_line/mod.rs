@@ -43,7 +43,6 @@ use crate::start::StartArgs;
 use crate::stiffness::arguments::StiffnessArgs;
 use crate::tolerance::arguments::ToleranceArgs;
 use crate::verify::arguments::VerifyArgs;
-#[cfg(feature = "view")]
 use crate::view::ViewArgs;
 
 /// Elastostatics of robots that machine: how far a machine bends along a program, and a program
@@ -99,7 +98,6 @@ pub(crate) enum Command {
     Verify(Box<VerifyArgs>),
     Deflect(Box<DeflectArgs>),
     Stiffness(StiffnessArgs),
-    #[cfg(feature = "view")]
     View(Box<ViewArgs>),
     Shares(Box<SharesArgs>),
     Modes(Box<ModesArgs>),

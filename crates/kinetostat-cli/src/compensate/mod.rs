@@ -38,6 +38,7 @@ use crate::program::aim::Aim;
 use crate::program::features::refuse_missed_features;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
+use crate::shown::in_report;
 use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::given::Given;
 use crate::ui::result_form::ResultForm;
@@ -245,7 +246,8 @@ fn compensate_whole(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     if let Some(turn) = &turn {
         turn.put_into(&mut run.result.run_inputs);
     }
-    outputs.fill(&run, &setting, turn.as_ref())?;
+    let shown = in_report::of_run(&outputs, &setting, &machine, &model, &run)?;
+    outputs.fill(&run, &setting, turn.as_ref(), shown.as_ref())?;
     let note = outputs.note(&run);
     let paths = outputs.files.commit()?;
     let said = turn.as_ref().map_or_else(String::new, FreeTurn::said);

@@ -39,6 +39,7 @@ use crate::long::which::{
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
+use crate::shown::in_report;
 use crate::ui::failure::{Answer, Failing};
 use crate::ui::given::Given;
 use crate::ui::result_form::ResultForm;
@@ -156,7 +157,8 @@ fn run_along(
         .warnings
         .extend(run_warnings::of_run(&model, job, &args.program));
     outputs.list(args.program.all_points, &model);
-    outputs.fill(&run, &setting, turn.as_ref())?;
+    let shown = in_report::of_run(&outputs, &setting, &machine, &model, &run)?;
+    outputs.fill(&run, &setting, turn.as_ref(), shown.as_ref())?;
     let note = outputs.note(&run);
     let paths = outputs.files.commit()?;
     let said = turn.as_ref().map_or_else(String::new, FreeTurn::said);

@@ -21,6 +21,7 @@ use crate::options::{EXIT_CODES, whole};
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
+use crate::shown::in_report;
 use crate::ui::failure::{Answer, Failing};
 use crate::ui::layout::{listed, wrapped};
 use crate::ui::result_form::ResultForm;
@@ -131,7 +132,8 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     // The demo may run again on another day and finds its own files.
     run.result.run_inputs.date = None;
     outputs.list(false, &model);
-    outputs.fill(&run, &setting, None)?;
+    let shown = in_report::of_run(&outputs, &setting, &machine, &model, &run)?;
+    outputs.fill(&run, &setting, None, shown.as_ref())?;
     outputs.files.commit()?;
     let mut text = wrapped(
         "An Orthoglide mills a circular groove, radius 25 mm. Its links bend under the milling force (215 N to the right of the feed, -10 N along it, -25 N along z), and each of its legs was assembled one degree askew.",

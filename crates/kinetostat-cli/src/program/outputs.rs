@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_machining::{FileRead, Run};
 use kinetostat_model::Model;
-use kinetostat_report::{Language, Paper, html_of_run_and_turns, turns_svg};
+use kinetostat_report::{Language, MachineShown, Paper, html_of_run, turns_svg};
 
 use crate::files::outputs::{Existing, Outputs};
 use crate::job::free_turn::FreeTurn;
@@ -136,17 +136,18 @@ impl RunOutputs {
     /// Writes the result of a long program beside its targets: JSON and report.
     pub(crate) fn fill_result(&mut self, run: &Run, setting: &Setting) -> Answer<()> {
         let (program, points) = (self.program.take(), self.points.take());
-        let filled = self.fill(run, setting, None);
+        let filled = self.fill(run, setting, None, None);
         (self.program, self.points) = (program, points);
         filled
     }
 
-    /// Writes a run beside its targets, with the turn that was chosen for it; nothing is in place yet.
+    /// Writes a run beside its targets, with the turn that was chosen for it and the machine for its report; nothing is in place yet.
     pub(crate) fn fill(
         &mut self,
         run: &Run,
         setting: &Setting,
         turn: Option<&FreeTurn>,
+        machine: Option<&MachineShown>,
     ) -> Answer<()> {
         if let (Some(index), Some(turn)) = (self.turn_plot, turn) {
             self.files.fill(index, turns_svg(&turn.choice).as_bytes())?;
@@ -194,7 +195,7 @@ impl RunOutputs {
         if let Some(index) = self.report {
             let chosen = turn.map(|turn| (&turn.choice, turn.description.as_str()));
             let page = match self.language {
-                Language::English => html_of_run_and_turns(run, chosen),
+                Language::English => html_of_run(run, chosen, machine),
                 Language::French | Language::German => Ok(of.html()),
             };
             let page = page.map_err(|error| {

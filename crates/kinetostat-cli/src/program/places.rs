@@ -75,16 +75,28 @@ impl JobRun {
         place: &ProgramPlace,
         mechanism: &Mechanism,
     ) -> Option<Standing> {
-        let mut points = self.run.points.iter();
+        Standing::at(place, &self.run, &self.machine.mechanism, mechanism)
+    }
+}
+
+impl Standing {
+    /// The machine at a place of a run with `of_run`, as `mechanism`, which may have another tool.
+    pub(crate) fn at(
+        place: &ProgramPlace,
+        run: &Run,
+        of_run: &Mechanism,
+        mechanism: &Mechanism,
+    ) -> Option<Self> {
+        let mut points = run.points.iter();
         let point = points.find(|p| p.move_index == place.move_index && p.share == place.share)?;
-        let limbs = self.machine.mechanism.limbs().iter();
+        let limbs = of_run.limbs().iter();
         let drives = limbs.flat_map(|limb| limb.nominal.actuators());
         let commands: Vec<f64> = (drives.zip(&point.actuator_command))
             .map(|(drive, shown)| shown / unit_of(drive.kind))
             .collect();
         let request = PostureRequest::commands(&commands);
         let posture = mechanism.posture(request).ok()?;
-        Some(Standing {
+        Some(Self {
             tip: posture.target().inverse() * place.programmed,
             commands,
         })

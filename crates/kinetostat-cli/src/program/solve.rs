@@ -101,6 +101,9 @@ fn share_out(writing: &mut WriteOptions, asked_mm: f64, rounding_mm: f64, path: 
     writing.tolerance_mm = larger(left_mm, SMALLEST_MM);
 }
 
+/// Places of a program that report and VTK show, about.
+const SHOWN: usize = 400;
+
 /// Applies `work` to the task of a run over a program that was read.
 pub(crate) fn with_task<R>(
     aim: Aim,
@@ -195,9 +198,10 @@ pub(crate) fn with_task<R>(
                 widest_zone: read.robot().and_then(RobotRead::widest_zone),
                 ..machine.bounds.clone()
             },
-            places: match setting.uncertain.is_some() || setting.targets.vtk.is_some() {
-                true => PLACES,
-                false => 0,
+            places: match &setting.targets {
+                _ if setting.uncertain.is_some() => PLACES,
+                targets if targets.report.is_some() || targets.vtk.is_some() => SHOWN,
+                _ => 0,
             },
         })
     };

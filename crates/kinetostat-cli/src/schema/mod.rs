@@ -26,7 +26,6 @@ const COMMANDS: &[(&str, &[ResultForm])] = &[
     ("verify", verify::RESULTS),
     ("deflect", deflect::RESULTS),
     ("stiffness", stiffness::RESULTS),
-    #[cfg(feature = "view")]
     ("view", crate::view::RESULTS),
     ("shares", shares::RESULTS),
     ("modes", modes::RESULTS),

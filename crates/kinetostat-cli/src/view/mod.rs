@@ -3,18 +3,12 @@
 //! It takes a model or a job, serves a page on this computer and answers what the page asks; or writes the page with its results as
 //! one file.
 
-mod answer;
-mod modes;
-mod path;
-mod session;
-mod state;
+#[cfg(feature = "view")]
+mod serve;
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use clap::Args;
-use kinetostat_diagnostic::ErrorCode;
-use kinetostat_view::{ServeError, Server, exported};
 
 use crate::files::file_kind::FileKind;
 use crate::files::input_files::InputFiles;
@@ -22,12 +16,12 @@ use crate::files::outputs::{self, Existing, Outputs};
 use crate::options::{EXIT_CODES, number, vector, whole};
 use crate::place::arguments::PlaceArgs;
 use crate::place::joints;
-use crate::ui::failure::{Answer, Failing, Failure};
-use crate::ui::host;
+use crate::shown::answer::{Exported, StateRequest};
+use crate::shown::path;
+use crate::shown::session::Session;
+use crate::ui::failure::{Answer, Failure};
 use crate::ui::result_form::ResultForm;
 use crate::ui::screen::{self, Stream};
-use crate::view::answer::{Exported, StateRequest};
-use crate::view::session::Session;
 
 /// A machine in three dimensions, in the browser: move it, load it, see it bend
 ///
@@ -84,17 +78,11 @@ Exit codes:
 pub(crate) const RESULTS: &[ResultForm] =
     &[ResultForm::of::<Exported>("results in an exported page")];
 
-impl From<ServeError> for Failure {
-    fn from(error: ServeError) -> Self {
-        ErrorCode::Value.failure(format!("{error}; give another --port, or none"))
-    }
-}
-
 pub(crate) fn run(args: &ViewArgs) -> Answer<()> {
     let (session, start) = session(args)?;
     match &args.export {
         Some(file) => export(args, file, &session, &start),
-        None => serve(args, session, &start),
+        None => served(args, session, &start),
     }
 }
 
@@ -149,47 +137,21 @@ fn export(args: &ViewArgs, file: &Path, session: &Session, start: &StateRequest)
     let inputs = session.path.iter().cloned().collect();
     let mut outputs = Outputs::new(Existing::forced(args.force_overwrite), inputs);
     let index = outputs.claim("page", file)?;
-    let results = serde_json::to_string(&session.exported(start)?);
-    let results = results.map_err(|error| ErrorCode::Internal.failure(error.to_string()))?;
-    let page = exported(&results)
-        .ok_or_else(|| ErrorCode::Internal.failure("the page has no place for results"))?;
+    let page = session.page(start)?;
     outputs.fill(index, page.as_bytes())?;
     let paths = outputs.commit()?;
     screen::print(Stream::Out, &outputs::written(&paths))
 }
 
-fn serve(args: &ViewArgs, session: Session, start: &StateRequest) -> Answer<()> {
-    if host::current().is_some() {
-        return Err(ErrorCode::NotBuiltIn.failure(
-            "view serves its page from the command line only: kinetostat view; or write it as a file (export)",
-        ));
-    }
-    let port = u16::try_from(args.port.unwrap_or(0))
-        .map_err(|_| ErrorCode::Value.failure("--port: 0 to 65535"))?;
-    let server = Server::listen(port)?;
-    let state = serde_json::to_string(start).unwrap_or_default();
-    let url = format!("{}#state={}", server.url(), in_url(&state));
-    screen::print(
-        Stream::Out,
-        &format!(
-            "{} in three dimensions: {url}\nCtrl-C ends it.\n",
-            session.named
-        ),
-    )?;
-    if !args.no_browser && open::that_detached(&url).is_err() {
-        screen::print(
-            Stream::Err,
-            "no browser could be opened: open the address above in one\n",
-        )?;
-    }
-    Ok(server.serve(Arc::new(session))?)
+#[cfg(feature = "view")]
+fn served(args: &ViewArgs, session: Session, start: &StateRequest) -> Answer<()> {
+    serve::serve(args, session, start)
 }
 
-/// A text as part of an address.
-fn in_url(text: &str) -> String {
-    let byte = |b: u8| match b.is_ascii_alphanumeric() || b"-_.~,:".contains(&b) {
-        true => char::from(b).to_string(),
-        false => format!("%{b:02X}"),
-    };
-    text.bytes().map(byte).collect()
+#[cfg(not(feature = "view"))]
+fn served(_: &ViewArgs, _: Session, _: &StateRequest) -> Answer<()> {
+    use crate::ui::failure::Failing;
+    Err(kinetostat_diagnostic::ErrorCode::NotBuiltIn.failure(
+        "this build has no server: write the page as a file (--export), or take the command line (cargo install, feature view)",
+    ))
 }

@@ -179,6 +179,7 @@ fn absurd_questions_are_answered_in_words() {
         (json!({ "actuators": [1e300, 0, 0] }), "value"),
         (json!({ "force_n": [1e300, 0, 0] }), "value"),
         (json!({ "place": 0 }), "value"),
+        (json!({ "place": 0, "force_n": [1, 0, 0] }), "conflict"),
         (json!({ "force": [1, 0, 0] }), "value"),
         (json!([1, 2]), "value"),
     ] {
@@ -197,6 +198,54 @@ fn absurd_questions_are_answered_in_words() {
     assert!(answer["scene"]["bars"].is_array());
 }
 
+/// Results in a page without a server.
+fn results_in(page: &str) -> Value {
+    let data = page.split_once("<script id=\"kinetostat-data\" type=\"application/json\">");
+    let data = data.expect("results").1.split_once("</script>");
+    serde_json::from_str(data.expect("an end").0).expect("JSON")
+}
+
+#[test]
+fn a_report_holds_the_machine_at_its_largest_errors() {
+    let here = here();
+    let here = here.path();
+    run(here, &["demo"]).answered();
+    let report = std::fs::read_to_string(here.join("kinetostat-demo/report.html")).expect("a page");
+    let frame = report.split_once("sandbox=\"allow-scripts\" loading=\"lazy\" srcdoc=\"");
+    let (before, frame) = frame.expect("a frame");
+    // Outside of its frame the report runs nothing, and nothing of it may ask a network.
+    assert!(before.contains("default-src 'none'"));
+    let (frame, after) = frame.split_once('"').expect("an end");
+    assert!(!before.contains("<script") && !after.contains("<script"));
+    let escaped = [
+        ("&quot;", "\""),
+        ("&#x27;", "'"),
+        ("&#x2f;", "/"),
+        ("&lt;", "<"),
+        ("&gt;", ">"),
+        ("&amp;", "&"),
+    ];
+    let page = escaped
+        .iter()
+        .fold(frame.to_owned(), |page, (from, to)| page.replace(from, to));
+    let data = results_in(&page);
+    let places = data["path"]["places"].as_array().expect("a list");
+    for key in ["error_before_mm", "error_after_mm"] {
+        let error = |place: usize| places[place][key].as_f64().expect("a number");
+        let worst = (0..places.len()).max_by(|a, b| error(*a).total_cmp(&error(*b)));
+        let states = data["states"].as_array().expect("a list");
+        assert!(
+            states
+                .iter()
+                .any(|state| state["place"].as_u64() == worst.map(|w| w as u64)),
+            "{key}"
+        );
+    }
+    // On paper there is a picture.
+    assert!(after.contains("src=\"data:image/svg+xml,"));
+    assert!(report.len() < 3_000_000, "{} bytes", report.len());
+}
+
 #[test]
 fn an_exported_page_holds_machine_path_and_states() {
     let here = here();
@@ -206,12 +255,7 @@ fn an_exported_page_holds_machine_path_and_states() {
     let words = ["view", "job.toml", "--export", "page.html"];
     run(&folder, &words).answered();
     let page = std::fs::read_to_string(folder.join("page.html")).expect("a page");
-    let data = page
-        .split_once("<script id=\"kinetostat-data\" type=\"application/json\">")
-        .expect("results")
-        .1;
-    let data: Value =
-        serde_json::from_str(data.split_once("</script>").expect("an end").0).expect("JSON");
+    let data = results_in(&page);
     let places = data["path"]["places"].as_array().expect("a list");
     assert!(places.len() > 100, "{}", places.len());
     let most = |key: &str| {
@@ -225,6 +269,18 @@ fn an_exported_page_holds_machine_path_and_states() {
         most("error_before_mm")
     );
     assert!(most("error_after_mm") < 1e-3, "{}", most("error_after_mm"));
+    let result = std::fs::read_to_string(folder.join("result.json")).expect("a result");
+    let result: Value = serde_json::from_str(&result).expect("JSON");
+    let whole = result["summary"]["feed_time_before_s"]
+        .as_f64()
+        .expect("a time");
+    let times: Vec<f64> = places
+        .iter()
+        .map(|p| p["time_s"].as_f64().expect("a time"))
+        .collect();
+    assert!(times.is_sorted());
+    let last = times.last().expect("a place");
+    assert!((0.99 * whole..=whole).contains(last), "{last} of {whole} s");
     let states = data["states"].as_array().expect("a list");
     assert!((20..=80).contains(&states.len()), "{}", states.len());
     assert!(

@@ -157,6 +157,13 @@ impl Rate {
     }
 }
 
+impl Move {
+    /// Duration at its programmed feed, s; `None` without a feed, and where that goes by the speed of the spindle.
+    pub fn seconds(&self) -> Option<f64> {
+        duration(self, self.length_mm())
+    }
+}
+
 /// Duration of a stretch of a move at its programmed feed, in seconds; of a turn in place that of the whole.
 pub(crate) fn duration(motion: &Move, length_mm: f64) -> Option<f64> {
     let feed = motion.feed?;

@@ -189,16 +189,24 @@ fn mm(v: &Vector3<f64>) -> [f64; 3] {
     (v * 1e3).into()
 }
 
+/// Millimetres to the nanometre: what is drawn needs no more, and a scene is half as long.
+fn drawn_mm(v: &Vector3<f64>) -> [f64; 3] {
+    v.map(|x| (x * 1e9).round() / 1e6).into()
+}
+
 fn in_mm<S: Serializer>(v: &Vector3<f64>, serializer: S) -> Result<S::Ok, S::Error> {
-    mm(v).serialize(serializer)
+    drawn_mm(v).serialize(serializer)
 }
 
 fn pair_in_mm<S: Serializer>(v: &[Vector3<f64>; 2], serializer: S) -> Result<S::Ok, S::Error> {
-    [mm(&v[0]), mm(&v[1])].serialize(serializer)
+    [drawn_mm(&v[0]), drawn_mm(&v[1])].serialize(serializer)
 }
 
 fn all_in_mm<S: Serializer>(v: &[Vector3<f64>], serializer: S) -> Result<S::Ok, S::Error> {
-    v.iter().map(mm).collect::<Vec<_>>().serialize(serializer)
+    v.iter()
+        .map(drawn_mm)
+        .collect::<Vec<_>>()
+        .serialize(serializer)
 }
 
 fn shown_pose<S: Serializer>(pose: &Pose, serializer: S) -> Result<S::Ok, S::Error> {
@@ -206,7 +214,7 @@ fn shown_pose<S: Serializer>(pose: &Pose, serializer: S) -> Result<S::Ok, S::Err
 }
 
 fn plain<S: Serializer>(v: &Vector3<f64>, serializer: S) -> Result<S::Ok, S::Error> {
-    <[f64; 3]>::from(*v).serialize(serializer)
+    <[f64; 3]>::from(v.map(|x| (x * 1e9).round() / 1e9)).serialize(serializer)
 }
 
 fn length_in_mm<S: Serializer>(length: &f64, serializer: S) -> Result<S::Ok, S::Error> {

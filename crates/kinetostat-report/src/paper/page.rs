@@ -89,9 +89,9 @@ fn block(out: &mut String, block: &Block) {
         Block::List(items) => writeln!(out, "<ul>{}</ul>", each(items, "li")),
         Block::Picture { svg, shows } => writeln!(
             out,
-            "<img alt=\"{}\" src=\"data:image/svg+xml,{}\">",
+            "<img alt=\"{}\" src=\"{}\">",
             escape(shows),
-            in_address(svg)
+            picture_address(svg)
         ),
         Block::Table(table) => writeln!(out, "{}", rows(table)),
         Block::Signatures(all) => {
@@ -109,8 +109,8 @@ fn block(out: &mut String, block: &Block) {
 }
 
 /// A drawing within an attribute: an image has a style sheet of its own, which does not reach the page.
-fn in_address(svg: &str) -> String {
-    let mut out = String::with_capacity(svg.len());
+pub(crate) fn picture_address(svg: &str) -> String {
+    let mut out = "data:image/svg+xml,".to_owned();
     for letter in svg.chars() {
         match letter {
             '%' | '#' | '"' | '<' | '>' | '&' | '\n' => {

@@ -19,6 +19,7 @@ use kinetostat_machining::{
     Envelope, Figures, PointKind, PointResult, Quantity, Run, RunResult, TurnChoice,
 };
 
+use crate::MachineShown;
 use crate::chart::panel::Along;
 use crate::number::typeset;
 
@@ -31,6 +32,7 @@ pub(crate) struct Shown<'a> {
     pub(crate) figures: Figures,
     /// The turn of the tool about its axis, where it was chosen for the run, and in words.
     pub(crate) turns: Option<(&'a TurnChoice, &'a str)>,
+    pub(crate) machine: Option<&'a MachineShown>,
 }
 
 impl Deref for Shown<'_> {
@@ -55,6 +57,7 @@ impl<'a> Shown<'a> {
             envelope: None,
             figures: in_type(result),
             turns: None,
+            machine: None,
         }
     }
 
@@ -66,6 +69,7 @@ impl<'a> Shown<'a> {
                 .filter(|envelope| envelope.points() > RunResult::MAX_POINTS),
             figures: in_type(&run.result),
             turns: None,
+            machine: None,
         }
     }
 
@@ -88,10 +92,6 @@ impl<'a> Shown<'a> {
             Some(envelope) => along.envelope(envelope, quantity, factor),
             None => along.values(self.points, |p| quantity.of(p).map(|value| value * factor)),
         }
-    }
-
-    pub(crate) fn with_turns(self, turns: Option<(&'a TurnChoice, &'a str)>) -> Self {
-        Self { turns, ..self }
     }
 }
 

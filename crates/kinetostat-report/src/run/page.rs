@@ -6,6 +6,7 @@ use minijinja::{Environment, Value, context};
 use crate::chart::panel::Sheet;
 use crate::chart::section::Section;
 use crate::number::{self, MISSING, typeset};
+use crate::paper::page::picture_address;
 use crate::run::{Shown, along, chatter, cutting, facts, joints, meaning, plan};
 use crate::{text, turns};
 
@@ -53,6 +54,11 @@ pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
         errors => figure(result, along::errors),
         views => figure(result, plan::views),
         magnification => plan::magnification(result).map(number::setting),
+        machine => result.machine.map(|machine| context! {
+            page => &machine.page,
+            picture => Value::from_safe_string(picture_address(&machine.picture)),
+            line => machine.line,
+        }),
         cutting => cutting::section(result, figure(result, cutting::figure)),
         chatter => chatter::section(result),
         actuators => figure(result, along::actuators),

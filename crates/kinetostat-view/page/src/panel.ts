@@ -38,6 +38,11 @@ function number(label: string, unit: string, change: (x: number) => void): HTMLI
   return input;
 }
 
+/** A number as its field has room for it. */
+function inField(x: number): string {
+  return String(Number(Math.abs(x) < 100 ? x.toPrecision(5) : x.toFixed(2)));
+}
+
 /** Three numbers of a vector. */
 class VectorInput {
   readonly row: HTMLElement;
@@ -67,7 +72,7 @@ class VectorInput {
     this.values = values;
     this.inputs.forEach((input, k) => {
       if (document.activeElement !== input) {
-        input.value = String(Number(values[k]!.toFixed(4)));
+        input.value = inField(values[k]!);
       }
     });
   }

@@ -329,7 +329,7 @@ test("an exported file asks nobody and shows what it holds", async () => {
   assert.equal(await ofPlace(page, "Error as programmed"), error(places[between].error_before_mm));
   assert.ok((await page.locator(".placeside p").innerText()).includes(`at line ${places[stored[2]].line}: the nearest of ${stored.length} stored places`));
   const { state } = held.states[2];
-  assert.equal(await page.getByLabel("Tool x, mm").inputValue(), String(Number(state.tool.position_mm[0].toFixed(4))));
+  assert.ok(Math.abs(Number(await page.getByLabel("Tool x, mm").inputValue()) - state.tool.position_mm[0]) < 5e-3);
   await slider(page).fill(String(stored[3]));
   await at(page, stored[3]);
   assert.equal(await page.locator(".placeside p").innerText(), "");

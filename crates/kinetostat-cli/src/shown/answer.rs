@@ -143,6 +143,19 @@ pub(crate) struct PathAnswer {
     pub(crate) places: Vec<PlaceOnPath>,
     pub(crate) tolerance_mm: f64,
     pub(crate) headline: Vec<String>,
+    /// What stands around the path.
+    pub(crate) boxes: Vec<ShownBox>,
+}
+
+/// A box, base axes.
+#[derive(Clone, Serialize, JsonSchema)]
+pub(crate) struct ShownBox {
+    pub(crate) name: String,
+    /// `stock`.
+    pub(crate) kind: &'static str,
+    pub(crate) corner_mm: [f64; 3],
+    /// From that corner.
+    pub(crate) edges_mm: [[f64; 3]; 3],
 }
 
 /// A place of the path.
@@ -151,6 +164,8 @@ pub(crate) struct PlaceOnPath {
     /// Line of the program, from 1.
     pub(crate) line: usize,
     pub(crate) path_mm: f64,
+    /// Time at feed from the beginning; none if a feed is not known.
+    pub(crate) time_s: Option<f64>,
     /// Base axes.
     pub(crate) position_mm: [f64; 3],
     /// Base axes.

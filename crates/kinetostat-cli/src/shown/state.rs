@@ -7,13 +7,13 @@ use kinetostat_report::{Placed, Scene};
 use nalgebra::{Matrix3, Vector3, Vector6};
 
 use crate::place::joints;
-use crate::ui::numbers::{fixed, number, triple};
-use crate::view::answer::{
+use crate::shown::answer::{
     Compliance, Figure, LimbLoad, RotaryCompliance, ShareOfPart, StateAnswer,
 };
+use crate::ui::numbers::{fixed, number, triple};
 
 /// The answer for a posture; `named` is the machine as the command line names it.
-pub(super) fn state_of(posture: &Posture, wrench: &Wrench, named: &str) -> StateAnswer {
+pub(crate) fn state_of(posture: &Posture, wrench: &Wrench, named: &str) -> StateAnswer {
     let mechanism = posture.mechanism();
     let values = joints::of_model(mechanism, &posture.commands());
     let solved = posture

@@ -1,35 +1,37 @@
 //! A session: one machine, perhaps with the program of a job, and the states that are asked of it.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use kinetostat::{Mechanism, Posture, PostureRequest, Wrench};
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_model::Model;
 use kinetostat_report::{Placed, Scene};
-use kinetostat_view::{Answers, Refused};
+use kinetostat_view::{Answers, Refused, exported};
 use nalgebra::Vector3;
+use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::machine::units::unit;
 use crate::place::arguments::PlaceArgs;
 use crate::place::joints;
 use crate::place::query::place_query_of;
-use crate::ui::failure::{Answer, Failing, Failure};
-use crate::view::answer::{
+use crate::shown::answer::{
     ActuatorRange, Exported, ExportedState, MachineAnswer, StateAnswer, StateRequest,
 };
-use crate::view::modes::modes_of;
-use crate::view::path::ShownPath;
-use crate::view::state::state_of;
+use crate::shown::modes::modes_of;
+use crate::shown::path::ShownPath;
+use crate::shown::state::state_of;
+use crate::ui::failure::{Answer, Failing, Failure};
 
 /// A machine and what belongs to it.
-pub(super) struct Session {
+pub(crate) struct Session {
     /// As the command line names it.
-    pub(super) named: String,
-    pub(super) path: Option<PathBuf>,
+    pub(crate) named: String,
+    pub(crate) path: Option<PathBuf>,
     /// The model; with a job, its machine has the job's tool.
-    pub(super) model: Model,
-    pub(super) program: Option<ShownPath>,
+    pub(crate) model: Model,
+    pub(crate) program: Option<ShownPath>,
 }
 
 /// Largest force and moment that are asked for, N and N m: what exceeds it is a wrong unit.
@@ -43,7 +45,7 @@ impl Session {
         &self.model.mechanism
     }
 
-    pub(super) fn machine_answer(&self) -> Answer<MachineAnswer> {
+    pub(crate) fn machine_answer(&self) -> Answer<MachineAnswer> {
         let mechanism = self.mechanism();
         let home = joints::of_model(mechanism, &joints::home(mechanism));
         let actuators = mechanism.limbs().iter().flat_map(|l| l.nominal.actuators());
@@ -86,6 +88,11 @@ impl Session {
             ));
         }
         let mechanism = self.mechanism();
+        if request.place.is_some() && (request.force_n.is_some() || request.moment_n_m.is_some()) {
+            return Err(ErrorCode::Conflict.failure(
+                "at a place of the program its own load acts: leave force_n and moment_n_m out",
+            ));
+        }
         let load = |what: &str, given: Option<[f64; 3]>| {
             let v = given.unwrap_or_default();
             match v.iter().all(|x| x.abs() <= MOST_LOAD) {
@@ -136,7 +143,7 @@ impl Session {
         })
     }
 
-    pub(super) fn state_answer(&self, request: &StateRequest) -> Answer<StateAnswer> {
+    pub(crate) fn state_answer(&self, request: &StateRequest) -> Answer<StateAnswer> {
         let (posture, wrench) = self.asked(request)?;
         let mut answer = state_of(&posture, &wrench, &self.named);
         if self.program.is_some() {
@@ -146,13 +153,15 @@ impl Session {
         Ok(answer)
     }
 
-    /// What a page without a server holds, at a state.
-    pub(super) fn exported(&self, request: &StateRequest) -> Answer<Exported> {
+    /// What a page without a server holds, at a state: of a path some states, those at its largest errors among them.
+    fn exported(&self, request: &StateRequest) -> Answer<Exported> {
         let places = self
             .program
             .as_ref()
             .map_or(0, |program| program.places.len());
         let step = places.div_ceil(EXPORTED_STATES).max(1);
+        let worst = self.program.iter().flat_map(ShownPath::worst);
+        let asked: BTreeSet<usize> = (0..places).step_by(step).chain(worst).collect();
         let at = |place: usize| {
             let request = StateRequest {
                 place: Some(place),
@@ -165,8 +174,16 @@ impl Session {
             machine: self.machine_answer()?,
             state: self.state_answer(request)?,
             path: self.program.as_ref().map(|program| program.answer.clone()),
-            states: (0..places).step_by(step).map(at).collect::<Answer<_>>()?,
+            states: asked.into_par_iter().map(at).collect::<Answer<_>>()?,
         })
+    }
+
+    /// The page with its results, at a state: it needs no server.
+    pub(crate) fn page(&self, request: &StateRequest) -> Answer<String> {
+        let results = serde_json::to_string(&self.exported(request)?);
+        let results = results.map_err(|error| ErrorCode::Internal.failure(error.to_string()))?;
+        exported(&results)
+            .ok_or_else(|| ErrorCode::Internal.failure("the page has no place for results"))
     }
 }
 

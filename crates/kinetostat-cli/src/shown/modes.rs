@@ -5,16 +5,16 @@ use kinetostat_analysis::vibration::VibratingMachine;
 use kinetostat_dynamics::{Held, ModeKind};
 use kinetostat_report::{Placed, Scene};
 
+use crate::shown::answer::{ModeOfState, ModesOfState};
 use crate::ui::failure::Answer;
 use crate::ui::numbers::number;
 use crate::vibration::small_step;
 use crate::vibration::subject::refused;
-use crate::view::answer::{ModeOfState, ModesOfState};
 
 /// Modes that are shown.
 const MOST: usize = 6;
 
-pub(super) fn modes_of(posture: &Posture, wrench: &Wrench) -> Answer<ModesOfState> {
+pub(crate) fn modes_of(posture: &Posture, wrench: &Wrench) -> Answer<ModesOfState> {
     let machine = VibratingMachine::at(posture, wrench, &Held::nothing()).map_err(refused)?;
     let mechanism = posture.mechanism();
     let modes = machine.modes.modes.iter().take(MOST).map(|mode| {

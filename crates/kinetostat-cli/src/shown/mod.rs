@@ -1,0 +1,8 @@
+//! A machine in three dimensions: states of it and the path of its program, for a page with a server and for one without.
+
+pub(crate) mod answer;
+pub(crate) mod in_report;
+mod modes;
+pub(crate) mod path;
+pub(crate) mod session;
+mod state;

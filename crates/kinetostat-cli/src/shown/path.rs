@@ -1,0 +1,133 @@
+//! The path of a job's program as the page shows it: errors before and after compensation, and the machine at each place.
+
+use std::path::Path;
+
+use kinetostat::Wrench;
+use kinetostat_machining::{EngagementSource, Placement, ProgramPlace, Run};
+use kinetostat_model::Model;
+use kinetostat_program::{Move, MoveKind};
+use nalgebra::Vector3;
+
+use crate::job::machine::MachineSetup;
+use crate::job::program::read_program;
+use crate::job::setting::Setting;
+use crate::program::aim::Aim;
+use crate::program::places::{JobRun, Standing};
+use crate::program::summary;
+use crate::shown::answer::{PathAnswer, PlaceOnPath, ShownBox};
+use crate::ui::failure::Answer;
+
+/// Places of a path that are shown, about.
+const PLACES: usize = 1500;
+
+/// The machine at a place of the path, under the load there.
+pub(crate) struct AtPlace {
+    pub(crate) standing: Standing,
+    pub(crate) wrench: Wrench,
+}
+
+/// A program with its places.
+pub(crate) struct ShownPath {
+    pub(crate) answer: PathAnswer,
+    /// One for each place of the answer.
+    pub(crate) places: Vec<AtPlace>,
+}
+
+/// Reads a job, compensates its program without writing it, and keeps what is shown: model with the job's tool, and path.
+pub(crate) fn of_job(job: &Path) -> Answer<(Model, ShownPath)> {
+    let of_job = JobRun::of(job, None, Aim::Compensate, PLACES)?;
+    let path = ShownPath::of(&of_job.setting, &of_job.machine, &of_job.run)?;
+    let mut model = of_job.model;
+    model.mechanism = of_job.machine.mechanism;
+    Ok((model, path))
+}
+
+impl ShownPath {
+    /// The places of a run with a machine.
+    pub(crate) fn of(setting: &Setting, machine: &MachineSetup, run: &Run) -> Answer<Self> {
+        let read = read_program(setting)?;
+        let moves = &read.path().moves;
+        let begins = begins_s(moves);
+        let mechanism = &machine.mechanism;
+        let shown = |place: &ProgramPlace| {
+            let at = AtPlace {
+                standing: Standing::at(place, run, mechanism, mechanism)?,
+                wrench: place.wrench,
+            };
+            let seconds = moves.get(place.move_index).and_then(Move::seconds);
+            let begin = begins.get(place.move_index).copied().flatten();
+            let time_s = begin
+                .zip(seconds)
+                .map(|(begin, own)| begin + place.share * own);
+            Some((at, place_on_path(place, time_s)))
+        };
+        let (places, on_path): (Vec<_>, Vec<_>) = run.places.iter().filter_map(shown).unzip();
+        let headline = summary::of_run(&run.result);
+        let answer = PathAnswer {
+            program: setting.program_name.clone(),
+            text: String::from_utf8_lossy(&setting.program).into_owned(),
+            places: on_path,
+            tolerance_mm: run.result.tolerance.allowed_mm,
+            headline: headline.lines().map(str::to_owned).collect(),
+            boxes: stock(machine).into_iter().collect(),
+        };
+        Ok(Self { answer, places })
+    }
+
+    /// The places with the largest errors before and after compensation.
+    pub(crate) fn worst(&self) -> Vec<usize> {
+        let errors: [fn(&PlaceOnPath) -> f64; 2] = [|p| p.error_before_mm, |p| p.error_after_mm];
+        let places = || self.answer.places.iter().enumerate();
+        let most = |error: fn(&PlaceOnPath) -> f64| {
+            places().max_by(|a, b| error(a.1).total_cmp(&error(b.1)))
+        };
+        let found = errors.into_iter().filter_map(most);
+        found.map(|(place, _)| place).collect()
+    }
+}
+
+/// Time at feed before each move, s; unknown behind one whose duration is not known.
+fn begins_s(moves: &[Move]) -> Vec<Option<f64>> {
+    let mut now = Some(0.0);
+    let begin = |own: &Move| {
+        let begin = now;
+        if own.kind == MoveKind::Feed {
+            now = now.zip(own.seconds()).map(|(now, own)| now + own);
+        }
+        begin
+    };
+    moves.iter().map(begin).collect()
+}
+
+/// The stock before the cut, as the box around it.
+fn stock(machine: &MachineSetup) -> Option<ShownBox> {
+    let EngagementSource::Stock(stock) = &machine.cut.as_ref()?.question.engagement else {
+        return None;
+    };
+    let [low, high] = stock.space_mm().map(Vector3::from);
+    let Placement {
+        base_from_part,
+        scale,
+        ..
+    } = &machine.placement;
+    let turned = |v: Vector3<f64>| base_from_part.rotation * v * *scale;
+    let edge = |k: usize| turned(Vector3::ith(k, high[k] - low[k])).into();
+    Some(ShownBox {
+        name: "stock".to_owned(),
+        kind: "stock",
+        corner_mm: (base_from_part.translation.vector * 1e3 + turned(low)).into(),
+        edges_mm: [0, 1, 2].map(edge),
+    })
+}
+
+fn place_on_path(place: &ProgramPlace, time_s: Option<f64>) -> PlaceOnPath {
+    PlaceOnPath {
+        line: place.line,
+        path_mm: place.path_mm,
+        time_s,
+        position_mm: (place.programmed.translation.vector * 1e3).into(),
+        force_n: place.wrench.force().into(),
+        error_before_mm: place.error_before_mm,
+        error_after_mm: place.error_after_mm,
+    }
+}

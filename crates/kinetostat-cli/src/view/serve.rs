@@ -1,0 +1,55 @@
+//! The page from a server on this computer.
+
+use std::sync::Arc;
+
+use kinetostat_diagnostic::ErrorCode;
+use kinetostat_view::{ServeError, Server};
+
+use crate::shown::answer::StateRequest;
+use crate::shown::session::Session;
+use crate::ui::failure::{Answer, Failing, Failure};
+use crate::ui::host;
+use crate::ui::screen::{self, Stream};
+use crate::view::ViewArgs;
+
+impl From<ServeError> for Failure {
+    fn from(error: ServeError) -> Self {
+        ErrorCode::Value.failure(format!("{error}; give another --port, or none"))
+    }
+}
+
+pub(super) fn serve(args: &ViewArgs, session: Session, start: &StateRequest) -> Answer<()> {
+    if host::current().is_some() {
+        return Err(ErrorCode::NotBuiltIn.failure(
+            "view serves its page from the command line only: kinetostat view; or write it as a file (export)",
+        ));
+    }
+    let port = u16::try_from(args.port.unwrap_or(0))
+        .map_err(|_| ErrorCode::Value.failure("--port: 0 to 65535"))?;
+    let server = Server::listen(port)?;
+    let state = serde_json::to_string(start).unwrap_or_default();
+    let url = format!("{}#state={}", server.url(), in_url(&state));
+    screen::print(
+        Stream::Out,
+        &format!(
+            "{} in three dimensions: {url}\nCtrl-C ends it.\n",
+            session.named
+        ),
+    )?;
+    if !args.no_browser && open::that_detached(&url).is_err() {
+        screen::print(
+            Stream::Err,
+            "no browser could be opened: open the address above in one\n",
+        )?;
+    }
+    Ok(server.serve(Arc::new(session))?)
+}
+
+/// A text as part of an address.
+fn in_url(text: &str) -> String {
+    let byte = |b: u8| match b.is_ascii_alphanumeric() || b"-_.~,:".contains(&b) {
+        true => char::from(b).to_string(),
+        false => format!("%{b:02X}"),
+    };
+    text.bytes().map(byte).collect()
+}
