@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     import xarray
 
     from kinetostat.compensation import CompensatedProgram
+    from kinetostat.page import View
     from kinetostat.shares import Shares
     from kinetostat.vibration import Damping
 
@@ -779,6 +780,26 @@ class Machine:
         model, length = bare(self)
         where: dict[str, Any] = {"model": model, "tool_length_mm": length} if posture is None else place(self._own(posture))
         return commands.model_draw(**handed_on(where, options))
+
+    def view(self, posture: Posture | None = None, *, force: ArrayLike | None = None, moment: ArrayLike | None = None) -> View:
+        """The machine in three dimensions, at home or at a posture; a notebook shows it.
+
+        Parameters
+        ----------
+        posture : Posture, optional
+            Where it stands; at home without one.
+        force, moment : array_like, shape (3,), optional
+            On the tool, N and N m, base axes.
+
+        Examples
+        --------
+        >>> Machine.preset("orthoglide").view(force=[215, -10, -25]).html[:15]
+        '<!doctype html>'
+        """
+        from kinetostat.page import View
+
+        parts = [np.zeros(3) if part is None else one(name, part, (3,)) for name, part in (("force", force), ("moment", moment))]
+        return View(self.posture() if posture is None else self._own(posture), np.concatenate(parts))
 
     def to_pyvista(self, posture: Posture | None = None, *, axes: float | None = None) -> Any:
         """The machine as a ``pyvista.MultiBlock``, at home or at a posture; see :func:`kinetostat.view.to_pyvista`.

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from kinetostat.curves import ForceCurve
     from kinetostat.force_models import ForceModel, ModelEquilibria
     from kinetostat.machine import Machine, Progress
+    from kinetostat.page import View
     from kinetostat.problem import EquilibriumProblem
     from kinetostat.shapes import Shapes
     from kinetostat.shares import Shares
@@ -242,6 +243,22 @@ class Equilibrium:
     def displacement(self) -> Floats:
         """(6,): from the commanded pose to that under load, m and rad, base axes."""
         return self._native.displacement
+
+    def view(self) -> View:
+        """The equilibrium in three dimensions; a notebook shows it.
+
+        It is solved anew from the commands of its posture and its wrench.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> loaded = ks.Machine.preset("orthoglide").posture().deflected_by([100, 0, 0, 0, 0, 0])
+        >>> loaded.view().html[:15]
+        '<!doctype html>'
+        """
+        from kinetostat.page import View
+
+        return View(self.posture, self.wrench)
 
     @property
     def displacement_without_load(self) -> Floats:

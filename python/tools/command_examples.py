@@ -327,4 +327,12 @@ True
         (True, True)
         """,
     ),
+    "view": """
+>>> import os, tempfile
+>>> import kinetostat as ks
+>>> with tempfile.TemporaryDirectory() as folder:
+...     _ = ks.commands.view("orthoglide", force=[215, -10, -25], export=os.path.join(folder, "orthoglide.html"))
+...     os.listdir(folder)
+['orthoglide.html']
+""",
 }

@@ -55,6 +55,9 @@ mod verify;
 mod vibration;
 mod view;
 
+pub use kinetostat_view::Refused;
+pub use shown::viewed::Viewed;
+
 use std::ffi::OsString;
 use std::process::ExitCode;
 use std::sync::Arc;

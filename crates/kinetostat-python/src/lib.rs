@@ -25,6 +25,7 @@ mod program;
 mod stiffness;
 mod tolerance;
 mod vibration;
+mod viewed;
 mod warnings;
 mod work;
 
@@ -61,6 +62,8 @@ mod _core {
     use crate::tolerance::{drawn_numbers, sobol_design, sobol_of_answers, tolerance_of_machine};
     #[pymodule_export]
     use crate::vibration::{Vibration, vibration_of};
+    #[pymodule_export]
+    use crate::viewed::Viewed;
     #[pymodule_export]
     use crate::warnings::{answer_warnings, load_warnings, tool_warnings};
     #[pymodule_export]

@@ -39,6 +39,7 @@ from kinetostat.commands._shares import shares
 from kinetostat.commands._stiffness import stiffness
 from kinetostat.commands._tolerance import tolerance
 from kinetostat.commands._verify import verify
+from kinetostat.commands._view import view
 
 __all__ = [
     "Completed",
@@ -79,4 +80,5 @@ __all__ = [
     "stiffness",
     "tolerance",
     "verify",
+    "view",
 ]

@@ -178,6 +178,8 @@ pub(crate) struct PlaceOnPath {
 /// Content of a page without a server.
 #[derive(Serialize, JsonSchema)]
 pub(crate) struct Exported {
+    /// Further states come from the page around this one, by messages.
+    pub(crate) live: bool,
     pub(crate) machine: MachineAnswer,
     pub(crate) state: StateAnswer,
     pub(crate) path: Option<PathAnswer>,

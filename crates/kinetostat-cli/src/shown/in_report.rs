@@ -54,7 +54,7 @@ pub(crate) fn of_run(
         ..StateRequest::default()
     };
     Ok(Some(MachineShown {
-        page: session.page(&start)?,
+        page: session.page(&start, false)?,
         picture,
         line,
     }))

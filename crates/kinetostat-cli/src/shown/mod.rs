@@ -6,3 +6,4 @@ mod modes;
 pub(crate) mod path;
 pub(crate) mod session;
 mod state;
+pub(crate) mod viewed;

@@ -154,7 +154,7 @@ impl Session {
     }
 
     /// What a page without a server holds, at a state: of a path some states, those at its largest errors among them.
-    fn exported(&self, request: &StateRequest) -> Answer<Exported> {
+    fn exported(&self, request: &StateRequest, live: bool) -> Answer<Exported> {
         let places = self
             .program
             .as_ref()
@@ -171,6 +171,7 @@ impl Session {
             Ok(ExportedState { place, state })
         };
         Ok(Exported {
+            live,
             machine: self.machine_answer()?,
             state: self.state_answer(request)?,
             path: self.program.as_ref().map(|program| program.answer.clone()),
@@ -178,9 +179,9 @@ impl Session {
         })
     }
 
-    /// The page with its results, at a state: it needs no server.
-    pub(crate) fn page(&self, request: &StateRequest) -> Answer<String> {
-        let results = serde_json::to_string(&self.exported(request)?);
+    /// The page with its results, at a state: it needs no server. A live one asks the page around it.
+    pub(crate) fn page(&self, request: &StateRequest, live: bool) -> Answer<String> {
+        let results = serde_json::to_string(&self.exported(request, live)?);
         let results = results.map_err(|error| ErrorCode::Internal.failure(error.to_string()))?;
         exported(&results)
             .ok_or_else(|| ErrorCode::Internal.failure("the page has no place for results"))
@@ -213,7 +214,7 @@ impl From<Failure> for Refused {
     }
 }
 
-fn read(request: &[u8]) -> Result<StateRequest, Refused> {
+pub(crate) fn read(request: &[u8]) -> Result<StateRequest, Refused> {
     serde_json::from_slice(request)
         .map_err(|error| Refused::new("value", format!("the request is not understood: {error}")))
 }

@@ -137,7 +137,7 @@ fn export(args: &ViewArgs, file: &Path, session: &Session, start: &StateRequest)
     let inputs = session.path.iter().cloned().collect();
     let mut outputs = Outputs::new(Existing::forced(args.force_overwrite), inputs);
     let index = outputs.claim("page", file)?;
-    let page = session.page(start)?;
+    let page = session.page(start, false)?;
     outputs.fill(index, page.as_bytes())?;
     let paths = outputs.commit()?;
     screen::print(Stream::Out, &outputs::written(&paths))

@@ -109,6 +109,8 @@ export interface Modes {
 }
 
 export interface Exported {
+  /** Further states come from the page around this one. */
+  live?: boolean;
   machine: Machine;
   state: State;
   path: Path | null;
@@ -117,6 +119,8 @@ export interface Exported {
 
 /** Where answers come from: the server, or the file itself. */
 export interface Source {
+  /** The state that is shown first, if not that at home. */
+  readonly start?: StateRequest;
   readonly live: boolean;
   machine(): Promise<Machine>;
   path(): Promise<Path | null>;
@@ -189,6 +193,53 @@ class File implements Source {
   }
 }
 
+/** The page around this one answers, as a notebook does: a message with a number, and one with the same number back. */
+class Around implements Source {
+  readonly live = true;
+  readonly stored = null;
+  readonly start: StateRequest;
+  private readonly waiting = new Map<number, { resolve: (answer: never) => void; reject: (error: Error) => void }>();
+
+  constructor(private readonly held: Exported) {
+    const { actuators, force_n, moment_n_m } = held.state;
+    this.start = { actuators, force_n, moment_n_m };
+    window.addEventListener("message", ({ source, data }) => {
+      const own = source === window.parent ? this.waiting.get(data?.id) : undefined;
+      this.waiting.delete(data?.id);
+      if (data?.error !== undefined) {
+        own?.reject(new Error(String(data.error)));
+      } else {
+        own?.resolve(data?.answer as never);
+      }
+    });
+  }
+
+  async machine(): Promise<Machine> {
+    return this.held.machine;
+  }
+
+  async path(): Promise<Path | null> {
+    return this.held.path;
+  }
+
+  async state(request: StateRequest): Promise<State> {
+    // The first state came with the page.
+    return request === this.start ? this.held.state : this.ask("state", request);
+  }
+
+  async modes(request: StateRequest): Promise<Modes> {
+    return this.ask("modes", request);
+  }
+
+  private ask<T>(kind: "state" | "modes", request: StateRequest): Promise<T> {
+    const id = (this.asked += 1);
+    window.parent.postMessage({ kinetostat: kind, id, request }, "*");
+    return new Promise((resolve, reject) => this.waiting.set(id, { resolve: resolve as (answer: never) => void, reject }));
+  }
+
+  private asked = 0;
+}
+
 /** The place of a list that is nearest to one. */
 export function nearest(places: number[], place: number): number | null {
   const far = (own: number) => Math.abs(own - place);
@@ -197,5 +248,9 @@ export function nearest(places: number[], place: number): number | null {
 
 export function source(): Source {
   const text = document.getElementById("kinetostat-data")?.textContent ?? "";
-  return text === "" ? new Server() : new File(JSON.parse(text) as Exported);
+  if (text === "") {
+    return new Server();
+  }
+  const held = JSON.parse(text) as Exported;
+  return held.live && window.parent !== window ? new Around(held) : new File(held);
 }

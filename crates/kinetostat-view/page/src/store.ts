@@ -148,7 +148,8 @@ export class Store {
         return otherwise;
       }
     };
-    this.request = read<StateRequest>("state", {});
+    const { start } = this.source;
+    this.request = words.has("state") || start === undefined ? read<StateRequest>("state", {}) : start;
     this.look = read("look", this.look);
   }
 }

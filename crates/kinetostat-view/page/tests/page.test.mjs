@@ -360,6 +360,39 @@ test("a page in a frame of a report works, with its panel closed at first", asyn
   assert.deepEqual(page.wrong, []);
 });
 
+test("a live page in a frame is answered by the page around it", async () => {
+  const file = join(folder, "alone.html");
+  assert.equal(spawnSync(command, ["view", "orthoglide", "--force", "100", "50", "0", "--export", file]).status, 0);
+  const live = readFileSync(file, "utf8").replace('"live":false', '"live":true');
+  const around = join(folder, "around.html");
+  const quoted = live.replaceAll("&", "&amp;").replaceAll('"', "&quot;");
+  writeFileSync(around, `<!doctype html><html lang="en"><title>Notebook</title><iframe title="Machine" sandbox="allow-scripts" width="1000" height="700" srcdoc="${quoted}"></iframe></html>`);
+  const url = await served("orthoglide");
+  const page = await (await browser.newContext({ viewport: { width: 1280, height: 800 } })).newPage();
+  await page.exposeFunction("answer", async (kind, request) => {
+    const headers = { "content-type": "application/json" };
+    const answer = await (await fetch(`${url}api/${kind}`, { method: "POST", headers, body: JSON.stringify(request) })).json();
+    return answer.error === undefined ? { answer } : { error: answer.error.message };
+  });
+  await page.addInitScript(() =>
+    window.addEventListener("message", async ({ data, source }) => data.kinetostat && source.postMessage({ id: data.id, ...(await window.answer(data.kinetostat, data.request)) }, "*")),
+  );
+  await page.goto(`file://${around}`);
+  const frame = page.frameLocator("iframe");
+  await frame.getByRole("button", { name: "Show panel" }).click();
+  const field = (name) => frame.getByLabel(name, { exact: true });
+  // The load that came with the page stays when another number is typed.
+  assert.equal(await field("Force x, N").inputValue(), "100");
+  await field("Force z, N").fill("-300");
+  await field("Force z, N").press("Enter");
+  const said = JSON.parse(spawnSync(command, ["deflect", "orthoglide", "--force", "100", "50", "-300", "--json"], { encoding: "utf8" }).stdout);
+  const detail = `(${said.displacement_mm.map((x) => x.toFixed(4)).join(", ")}) mm`;
+  await frame.getByText(detail).first().waitFor();
+  await field("Tool x, mm").fill("5000");
+  await field("Tool x, mm").press("Enter");
+  await frame.getByRole("alert").filter({ hasText: "reached" }).waitFor();
+});
+
 test("paper has the picture and the figures", async () => {
   const { file } = exported();
   const page = await opened(`file://${file}`, { colorScheme: "dark" });
