@@ -222,6 +222,8 @@ impl Difference {
             ]
             .map(str::to_owned)
             .to_vec(),
+            interpolated: true,
+            parted_at: Some(0.0),
             ..Section::default()
         };
         section.svg()

@@ -274,6 +274,7 @@ fn map(a: &EngagementAnswer, whole: &Stock, left: &Stock, path: &Path) -> Sectio
         scale_from: Some(0.0),
         lines: lines(path, 0.2 * cell),
         marks: marks(&a.cutting.worst_lines, longest),
+        ..Section::default()
     }
 }
 

@@ -9,7 +9,7 @@ use kinetostat_analysis::outline::chain_outline;
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::fields::Fields;
 use kinetostat_machining::MapTask;
-use kinetostat_report::{Cell, PlotLine, PlotMark};
+use kinetostat_report::{Cell, PlotLine, PlotMark, Section};
 
 use crate::files::outputs::Outputs;
 use crate::map::answer::MapAnswer;
@@ -98,8 +98,8 @@ fn parquet_of(_: &Fields) -> Answer<Vec<u8>> {
     Err(ErrorCode::NotBuiltIn.failure("--parquet: this program was built without Parquet"))
 }
 
-/// About as many lines of equal value.
-const LINES: f64 = 6.0;
+/// Nearer than this to a place, in steps of the grid, a line runs through it.
+const EDGE: f64 = 1e-6;
 /// Stands where there is no value; what is found beside it is no line.
 const NOTHING: f64 = -1e300;
 
@@ -110,7 +110,7 @@ fn value(cell: &Cell) -> f64 {
     }
 }
 
-/// Lines of equal value, at round ones.
+/// Lines of equal value, where the colours of the section change.
 fn isolines(picture: &Picture) -> Vec<PlotLine> {
     let values: Vec<f64> = picture.cells.iter().map(value).collect();
     let known = || values.iter().copied().filter(|x| !x.is_nan());
@@ -122,12 +122,7 @@ fn isolines(picture: &Picture) -> Vec<PlotLine> {
     if !(high - low).is_normal() || high - low < 1e-9 * high.abs() || nx < 3 || ny < 3 {
         return Vec::new();
     }
-    let step = round((high - low) / LINES);
-    let first = (low / step).floor() as i64 + 1;
-    let levels: Vec<f64> = (first..)
-        .map(|k| k as f64 * step)
-        .take_while(|level| *level < high)
-        .collect();
+    let levels = Section::borders(known());
     let filled: Vec<f64> = values
         .iter()
         .map(|x| if x.is_nan() { NOTHING } else { *x })
@@ -146,9 +141,18 @@ fn isolines(picture: &Picture) -> Vec<PlotLine> {
     let place = |c: &contour_coordinate::Coordinate| {
         let (i, j) = (c.x - 0.5, c.y - 0.5);
         let inside = i >= 0.0 && j >= 0.0 && i <= (nx - 1) as f64 && j <= (ny - 1) as f64;
-        let beside = [(i.floor(), j.floor()), (i.ceil(), j.ceil())];
-        let known = |(i, j): (f64, f64)| !values[j as usize * nx + i as usize].is_nan();
-        match inside && beside.into_iter().all(known) {
+        // A line that runs through a place beside one without a value is the border of the values, no line of equal ones.
+        let beside = |at: f64, count: usize| {
+            let last = (count - 1) as f64;
+            [(at - EDGE).floor().max(0.0), (at + EDGE).ceil().min(last)].map(|at| at as usize)
+        };
+        let known = |i: usize, j: usize| !values[j * nx + i].is_nan();
+        let all_known = || {
+            let rows = beside(j, ny);
+            let mut columns = beside(i, nx).into_iter();
+            columns.all(|i| rows.into_iter().all(|j| known(i, j)))
+        };
+        match inside && all_known() {
             true => (at(&x, i), at(&y, j)),
             false => (f64::NAN, f64::NAN),
         }
@@ -165,14 +169,6 @@ fn isolines(picture: &Picture) -> Vec<PlotLine> {
 /// The crate's kind of a point, by a name of our own.
 mod contour_coordinate {
     pub(super) type Coordinate = geo_types::Coord<f64>;
-}
-
-/// 1, 2 or 5 times a power of ten.
-fn round(step: f64) -> f64 {
-    let power = 10_f64.powf(step.log10().floor());
-    let factor = [1.0, 2.0, 5.0, 10.0];
-    let own = factor.into_iter().find(|f| f * power >= step);
-    own.unwrap_or(10.0) * power
 }
 
 /// The best and the worst place of the section.

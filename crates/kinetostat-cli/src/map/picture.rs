@@ -148,6 +148,7 @@ impl Picture {
             ],
             lines,
             marks,
+            interpolated: true,
             ..Section::default()
         }
         .svg()

@@ -116,6 +116,7 @@ pub(crate) fn drawing(answer: &PlaceAnswer, space: &Space) -> Option<String> {
             "an obstacle, or not stable".into(),
         ],
         marks: marks(placed, space, panel, false),
+        interpolated: true,
         ..Section::default()
     };
     let sections: Vec<Section> = placed.maps.iter().map(section).collect();

@@ -134,6 +134,8 @@ fn under_a_load_it_tells_where_the_tool_goes() {
     }
     let svg = std::fs::read_to_string(here.path().join("d.svg")).expect("the drawing");
     assert!(svg.starts_with("<svg") && svg.contains("displacement, mm"));
+    let legend = svg.matches(">machine with its tool in the middle<");
+    assert_eq!(legend.count(), 1, "three limbs have one name");
 }
 
 /// Digits that mean something, on places that no decimal number meets: as many as in the table of points.

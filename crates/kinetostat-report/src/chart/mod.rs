@@ -3,7 +3,9 @@
 //! Takes numbers with the words for their axes; gives SVG. Knows neither runs nor machines.
 
 pub(crate) mod area;
+pub(crate) mod bands;
 pub(crate) mod bars;
+pub(crate) mod fine;
 pub(crate) mod label;
 pub(crate) mod outline;
 pub(crate) mod panel;

@@ -4,6 +4,8 @@
 
 use std::fmt::Write as _;
 
+use crate::chart::bands::{BAR, Bands};
+use crate::chart::fine::Fine;
 use crate::chart::label::{Frame, Names, TEXT_SIZE, title_lines, widest};
 use crate::chart::outline::{first_time, path_data};
 use crate::chart::panel::legend;
@@ -29,14 +31,8 @@ const FRAMED: &str = "svg.framed rect.card{fill:none;stroke:none}";
 /// A line that is the subject of the picture.
 const BOLD: &str = "svg path.way{stroke-width:2;stroke-opacity:1}svg path.way-ground{stroke-width:5;stroke-opacity:.8}";
 
-/// Colours of the style sheet, from low to high.
-const COLOURS: usize = 11;
-/// A span of more than this ratio is divided by ratios.
-const WIDE: f64 = 50.0;
 /// Greys of the style sheet, from dark to light.
 const GREYS: usize = 6;
-/// Width of the scale beside the section.
-const BAR: f64 = 18.0;
 
 /// A section through a field.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -61,6 +57,10 @@ pub struct Section {
     pub grey_label: String,
     /// A value at which the scale of colours begins at the latest.
     pub scale_from: Option<f64>,
+    /// True for a continuous quantity: its colours are interpolated between places, as its lines of equal value are.
+    pub interpolated: bool,
+    /// A value that parts two kinds, as zero parts gain and loss: each kind has a hue, and its shades grow with the distance.
+    pub parted_at: Option<f64>,
     /// Thin lines over the cells: solid, or dashed.
     pub lines: Vec<PlotLine>,
     /// Named places.
@@ -128,6 +128,12 @@ impl Section {
         svg.document([SIZE[0], down - 8.0], &self.title, &style)
     }
 
+    /// Borders between the colours of an interpolated section with these values: lines of equal value belong there.
+    #[must_use]
+    pub fn borders(values: impl Iterator<Item = f64>) -> Vec<f64> {
+        Bands::of(values.filter_map(number::drawable), None).borders
+    }
+
     /// Draws the section as an element for a page, which has the style of plots and [`Self::filled_style`];
     /// `description` is its text alternative.
     pub(crate) fn filled_element(&self, description: &str) -> String {
@@ -176,7 +182,10 @@ impl Section {
             Cell::Value(x) => number::drawable(*x),
             Cell::Other(_) | Cell::Grey(_) => None,
         });
-        let bands = Bands::of(values, self.scale_from);
+        let bands = match self.parted_at {
+            Some(middle) => Bands::parted(values, middle),
+            None => Bands::of(values, self.scale_from),
+        };
         top += self.reasons(&mut svg, top);
         let y_ticks = y_span.ticks(7);
         let left = widest(y_ticks.iter().map(|tick| tick.label.as_str())) + 46.0;
@@ -243,8 +252,13 @@ impl Section {
             svg.text("name", beside, Anchor::Start, &self.grey_label);
             at += 56.0 + text::width(&self.grey_label, TEXT_SIZE);
         }
-        let named = self.lines.iter().filter(|line| !line.name.is_empty());
-        let entries: Vec<(&str, String)> = named.map(|l| (key(l), l.name.clone())).collect();
+        let mut entries: Vec<(&str, String)> = Vec::new();
+        for line in self.lines.iter().filter(|line| !line.name.is_empty()) {
+            let entry = (key(line), line.name.clone());
+            if !entries.contains(&entry) {
+                entries.push(entry);
+            }
+        }
         if !entries.is_empty() {
             return 1.0 + legend(svg, &entries, [at, top + 4.0], SIZE[0] - 18.0);
         }
@@ -287,7 +301,11 @@ impl Section {
 
     /// One path for all cells of a class, runs along the horizontal axis as one rectangle each.
     fn fill(&self, svg: &mut Svg, bands: &Bands, frame: &Frame) {
-        let (columns, rows) = (self.x.len(), self.y.len());
+        let fine = self.interpolated.then(|| Fine::of(self));
+        let (columns, rows, own) = match &fine {
+            Some(fine) => (fine.columns, fine.rows, fine.cells.as_slice()),
+            None => (self.x.len(), self.y.len(), self.cells.as_slice()),
+        };
         let (wide, high) = (frame.width / columns as f64, frame.height / rows as f64);
         let class = |cell: &Cell| match cell {
             Cell::Value(x) => number::drawable(*x).map(|x| bands.class(x)),
@@ -298,7 +316,7 @@ impl Section {
             }
         };
         let mut paths: std::collections::BTreeMap<String, String> = Default::default();
-        for (row, cells) in self.cells.chunks(columns).take(rows).enumerate() {
+        for (row, cells) in own.chunks(columns).take(rows).enumerate() {
             let bottom = frame.bottom() - high * row as f64;
             let mut first = 0;
             let classes: Vec<Option<String>> = cells.iter().map(class).collect();
@@ -345,93 +363,6 @@ fn edges(places: &[f64]) -> Option<Span> {
     (span.length().is_finite() && span.length() > 0.0).then_some(span)
 }
 
-/// Round values that divide the colours.
-#[derive(Default)]
-struct Bands {
-    borders: Vec<f64>,
-    labels: Vec<String>,
-}
-
-impl Bands {
-    fn of(values: impl Iterator<Item = f64>, from: Option<f64>) -> Self {
-        let none = Self::default();
-        let Some(span) = Span::of(values) else {
-            return none;
-        };
-        if from.is_none() && span.low > 0.0 && span.high > WIDE * span.low {
-            return Self::by_ratio(span);
-        }
-        let span = from.map_or(span, |from| span.including(from)).widened();
-        // The lowest and the highest band reach beyond their borders.
-        let inside = |wanted: usize| -> Vec<_> {
-            let ticks = span.ticks(wanted).into_iter();
-            ticks
-                .filter(|t| t.value > span.low && t.value < span.high)
-                .collect()
-        };
-        // Every band has a colour of its own.
-        let ticks = (1..=COLOURS).rev().map(inside).find(|t| t.len() < COLOURS);
-        let ticks = ticks.into_iter().flatten();
-        let (borders, labels) = ticks.map(|t| (t.value, t.label)).unzip();
-        Self { borders, labels }
-    }
-
-    /// 1, 2, 5 times powers of ten, or the powers alone.
-    fn by_ratio(span: Span) -> Self {
-        let decades = span.low.log10().floor() as i32..=span.high.log10().ceil() as i32;
-        let steps: &[f64] = match span.high / span.low {
-            ratio if ratio > 1e3 => &[1.0],
-            _ => &[1.0, 2.0, 5.0],
-        };
-        let borders: Vec<f64> = decades
-            .flat_map(|d| steps.iter().map(move |s| s * 10f64.powi(d)))
-            .filter(|x| *x > span.low && *x < span.high)
-            .collect();
-        let labels = borders
-            .iter()
-            .map(|x| number::significant(*x, 1, number::Rounding::Nearest))
-            .collect();
-        Self { borders, labels }
-    }
-
-    /// Number of the band of a value.
-    fn band(&self, value: f64) -> usize {
-        self.borders.partition_point(|border| *border <= value)
-    }
-
-    fn class(&self, value: f64) -> String {
-        self.colour(self.band(value))
-    }
-
-    fn colour(&self, band: usize) -> String {
-        let most = self.borders.len().max(1);
-        let colour = (band * (COLOURS - 1) + most / 2) / most;
-        format!("f{colour}")
-    }
-
-    /// The scale of colours with its borders.
-    fn key(&self, svg: &mut Svg, left: f64, room: &Frame, label: &str) {
-        if self.borders.is_empty() && self.labels.is_empty() {
-            return;
-        }
-        let bands = self.borders.len() + 1;
-        let height = room.height.min(34.0 * bands as f64) / bands as f64;
-        let bottom = room.y + 0.5 * (room.height + height * bands as f64);
-        for band in 0..bands {
-            let top = bottom - height * (band + 1) as f64;
-            svg.rectangle(&self.colour(band), [left, top], [BAR, height], 0.0);
-        }
-        for (k, text) in self.labels.iter().enumerate() {
-            let at = bottom - height * (k + 1) as f64;
-            svg.line("axis", [left + BAR, at], [left + BAR + 4.0, at]);
-            svg.text("tick", [left + BAR + 7.0, at + 4.2], Anchor::Start, text);
-        }
-        let widest = widest(self.labels.iter().map(String::as_str));
-        let beside = [left + BAR + 26.0 + widest, room.y + 0.5 * room.height];
-        svg.text_upwards("name", beside, label);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -463,6 +394,22 @@ mod tests {
     }
 
     #[test]
+    fn lines_of_one_name_have_one_entry_and_colours_change_along_the_lines() {
+        let values = [100.0, 200.0, 390.0, 100.0, 200.0, 390.0];
+        let mut section = section(values.map(Cell::Value).to_vec());
+        section.lines = vec![PlotLine::dashed("machine", 0, vec![(0.0, 0.0), (20.0, 10.0)]); 3];
+        assert_eq!(section.svg().matches(">machine<").count(), 1);
+        // Three cells in a row have three colours; interpolated, all that lie between are there, too.
+        let has = |svg: &str, k: usize| svg.contains(&format!("<path class=\"f{k}\""));
+        let colours = |svg: &str| (0..11).filter(|k| has(svg, *k)).count();
+        let coarse = section.svg();
+        section.interpolated = true;
+        let fine = section.svg();
+        assert_eq!((colours(&coarse), colours(&fine)), (3, 6));
+        assert_eq!(Section::borders(values.into_iter()).len(), 5);
+    }
+
+    #[test]
     fn what_has_no_value_is_named() {
         let mut cells = vec![Cell::Value(1.0); 6];
         cells[4] = Cell::Other(1);
@@ -470,17 +417,5 @@ mod tests {
         assert!(svg.contains(">unreachable<") && !svg.contains(">outside limits<"));
         let nothing = Section::default().svg();
         assert!(nothing.contains("no places to show"));
-    }
-
-    #[test]
-    fn a_wide_span_is_divided_by_ratios() {
-        let bands = Bands::of([0.3, 40.0].into_iter(), None);
-        assert_eq!(bands.borders, [0.5, 1.0, 2.0, 5.0, 10.0, 20.0]);
-        assert_eq!((bands.band(0.4), bands.band(40.0)), (0, 6));
-        let classes: Vec<String> = (0..7).map(|b| bands.colour(b)).collect();
-        assert_eq!((classes[0].as_str(), classes[6].as_str()), ("f0", "f10"));
-        // All the same.
-        let flat = Bands::of([7.0, 7.0].into_iter(), None);
-        assert!(flat.borders.len() < 20);
     }
 }
