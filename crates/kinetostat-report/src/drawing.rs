@@ -178,6 +178,8 @@ pub struct Drawing<'m> {
     pub view: Option<View>,
     /// A motion drawn over it.
     pub moved: Option<Moved>,
+    /// Motions of all drawings of a set, this one's included: they share direction of view and scale. Empty for a drawing alone.
+    pub set: &'m [Moved],
     /// Force and moment on the tool, drawn as arrows; base axes, N and N m.
     pub applied: Option<Wrench>,
 }
@@ -193,6 +195,7 @@ impl<'m> Drawing<'m> {
             note: String::new(),
             view: None,
             moved: None,
+            set: &[],
             applied: None,
         }
     }

@@ -123,13 +123,17 @@ fn drawn(
             .map(|pair| of_pair(machine, pair))
             .collect(),
     };
+    // One camera for all: drawings that are compared are seen from one side and in one size.
+    let set: Vec<Moved> = (list.iter())
+        .flat_map(|mode| [0, 1].map(|column| moved(posture, machine, mode, column)))
+        .collect();
     let (width, height) = (2 * WIDTH, HEIGHT * list.len());
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n"
     );
     for (row, mode) in list.iter().enumerate() {
         for column in 0..2 {
-            let panel = phase(query, posture, machine, row, mode, column);
+            let panel = phase(query, &set, row, mode, column);
             let place = format!(
                 "<svg x=\"{}\" y=\"{}\" width=\"{WIDTH}\" height=\"{HEIGHT}\"",
                 column * WIDTH,
@@ -167,22 +171,22 @@ fn nested(svg: &str, head: &str) -> String {
     format!("{head}{kept}{rest}")
 }
 
-fn phase(
-    query: &PlaceQuery,
-    posture: &Posture,
-    machine: &VibratingMachine,
-    index: usize,
-    mode: &Drawn,
-    column: usize,
-) -> String {
+/// Motion of a mode in a phase, from the equilibrium on.
+fn moved(posture: &Posture, machine: &VibratingMachine, mode: &Drawn, column: usize) -> Moved {
     // Both phases are drawn with the same step.
     let step = small_step(&mode.phases[0]);
-    let from = Placed::solved(posture, &machine.equilibrium.state);
-    let to = Placed::solved(
-        posture,
-        &machine.moved_in(posture, &mode.phases[column], step),
-    );
-    let mut drawing = Drawing::of(&query.mechanism, from.clone());
+    let moved_in = machine.moved_in(posture, &mode.phases[column], step);
+    Moved {
+        from: Placed::solved(posture, &machine.equilibrium.state),
+        to: Placed::solved(posture, &moved_in),
+        magnified: Magnified::Direction,
+        name: "moved as in the mode".to_owned(),
+    }
+}
+
+fn phase(query: &PlaceQuery, set: &[Moved], index: usize, mode: &Drawn, column: usize) -> String {
+    let own = set[2 * index + column].clone();
+    let mut drawing = Drawing::of(&query.mechanism, own.from.clone());
     drawing.title = format!(
         "{}, mode {}: {}, phase {} deg",
         query.name,
@@ -190,11 +194,7 @@ fn phase(
         mode.words,
         mode.degrees[column]
     );
-    drawing.moved = Some(Moved {
-        from,
-        to,
-        magnified: Magnified::Direction,
-        name: "moved as in the mode".to_owned(),
-    });
+    drawing.moved = Some(own);
+    drawing.set = set;
     drawing.svg().0
 }

@@ -77,10 +77,15 @@ impl Drawing<'_> {
 
 fn paint(d: &Drawing<'_>) -> (String, f64) {
     let scene = Scene::of(d.mechanism, &d.placed);
-    let overlay = d.moved.as_ref().map(|m| overlay(d, m, &scene));
+    let overlay = d.moved.as_ref().map(|m| overlay_of(d, m, &scene));
     let factor = overlay.as_ref().map_or(1.0, |o| o.factor);
     let mut svg = Svg::default();
-    let mut motions: Vec<Vec<Vector3<f64>>> = overlay.iter().map(|o| o.motions(&scene)).collect();
+    let set: Vec<Overlay> = d.set.iter().map(|m| overlay_of(d, m, &scene)).collect();
+    let shown = || match set.is_empty() {
+        true => overlay.as_slice(),
+        false => set.as_slice(),
+    };
+    let mut motions: Vec<Vec<Vector3<f64>>> = shown().iter().map(|o| o.motions(&scene)).collect();
     motions.extend(
         d.applied
             .iter()
@@ -105,7 +110,7 @@ fn paint(d: &Drawing<'_>) -> (String, f64) {
     scene.blobs.iter().for_each(|b| room(&b.at));
     scene.grounds.iter().for_each(|g| room(&g.at));
     axes.iter().flat_map(|a| &a.ends).for_each(&mut room);
-    if let Some(o) = &overlay {
+    for o in shown() {
         o.bars.iter().flat_map(|b| b.ends).for_each(|p| room(&p));
         o.bars.iter().for_each(|b| room(&b.middle()));
         room(&o.tool);
@@ -192,7 +197,7 @@ fn heading(d: &Drawing<'_>, svg: &mut Svg) -> f64 {
     base + 6.0
 }
 
-fn overlay(d: &Drawing<'_>, moved: &Moved, scene: &Scene) -> Overlay {
+fn overlay_of(d: &Drawing<'_>, moved: &Moved, scene: &Scene) -> Overlay {
     let from = Scene::with_unit(d.mechanism, &moved.from, scene.unit);
     let to = Scene::with_unit(d.mechanism, &moved.to, scene.unit);
     let displacement = to.tool.translation.vector - from.tool.translation.vector;

@@ -139,6 +139,44 @@ fn drawings_hold_numbers_only_and_escape_names() {
     }
 }
 
+/// Modes that are compared are seen from one side, in one size.
+#[test]
+fn drawings_of_a_set_have_one_camera_and_one_scale() {
+    let model = model("heavy_6r");
+    let m = &model.mechanism;
+    let posture = m.posture(&m.platforms()[m.tool()].home).expect("home");
+    let moved = |force: Vector3<f64>| {
+        let loaded = posture.deflected_by(&Wrench::new(force, Vector3::zeros()));
+        Moved {
+            from: Placed::at(&posture),
+            to: Placed::solved(&posture, &loaded.expect("an equilibrium").state),
+            magnified: Magnified::Direction,
+            name: "mode".to_owned(),
+        }
+    };
+    let set = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| moved(1000.0 * axis));
+    let axes_of = |set: &[Moved], of: &[Moved]| -> Vec<String> {
+        let drawn = of.iter().map(|own| {
+            let mut drawing = Drawing::of(m, own.from.clone());
+            (drawing.moved, drawing.set) = (Some(own.clone()), set);
+            let svg = drawing.svg().0;
+            // The axes of base and tool.
+            let axes = svg.split("<path class=\"").skip(1);
+            let axes = axes.filter(|rest| rest.starts_with("ax"));
+            axes.map(|rest| rest.split("/>").next().unwrap_or_default())
+                .collect()
+        });
+        drawn.collect()
+    };
+    let together = axes_of(&set, &set);
+    assert!(!together[0].is_empty() && together.iter().all(|own| *own == together[0]));
+    let alone = axes_of(&[], &set);
+    assert!(
+        alone.iter().any(|own| *own != alone[0]),
+        "each alone has its own view"
+    );
+}
+
 /// The factor is round, and the drawn motion is neither too small nor too large.
 #[test]
 fn deflections_are_drawn_by_a_round_factor() {
