@@ -366,10 +366,15 @@ fn histogram(title: String, label: &str, values: &[f64], [nominal, deviation]: [
             let z = f64::from(k) / 20.0;
             (nominal + z * deviation, peak * (-0.5 * z * z).exp())
         };
+        // The length of a vector is never below zero, whatever a normal distribution says.
+        let is_length = !["_x_", "_y_", "_z_"]
+            .iter()
+            .any(|axis| label.contains(axis));
+        let possible = |point: &(f64, f64)| !is_length || point.0 >= 0.0;
         lines.push(PlotLine::dashed(
             "linear, normal",
             1,
-            (-80..=80).map(at).collect(),
+            (-80..=80).map(at).filter(possible).collect(),
         ));
     }
     Plot {
@@ -378,5 +383,24 @@ fn histogram(title: String, label: &str, values: &[f64], [nominal, deviation]: [
         y_label: "density".to_owned(),
         lines,
         marks: Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use kinetostat::number::smaller;
+
+    use super::*;
+
+    #[test]
+    fn a_length_is_never_below_zero_and_a_component_may_be() {
+        let values: Vec<f64> = (0..100).map(|k| 0.01 + 1e-4 * f64::from(k)).collect();
+        let least = |label: &str| {
+            let plot = histogram(String::new(), label, &values, [0.01, 0.005]);
+            let all = plot.lines.iter().flat_map(|line| line.points.iter());
+            all.map(|point| point.0).fold(0.0, smaller)
+        };
+        assert!(least("error_mm") >= 0.0);
+        assert!(least("error_x_mm") < -0.005);
     }
 }
