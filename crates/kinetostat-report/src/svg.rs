@@ -90,6 +90,11 @@ impl Svg {
         );
     }
 
+    /// Draws another drawing in the same place.
+    pub(crate) fn append(&mut self, other: &Self) {
+        self.body.push_str(&other.body);
+    }
+
     /// Draws another drawing, so many pixels below the top of this one.
     pub(crate) fn below(&mut self, down: f64, other: &Self) {
         self.at([0.0, down], other);
@@ -130,7 +135,7 @@ impl Svg {
     /// The drawing as a document with its own style, whose colours programs without variables of style sheets know, too.
     pub(crate) fn document(&self, size: [f64; 2], description: &str, style: &str) -> String {
         let [width, height] = size.map(pixel);
-        let style = without_variables(style);
+        let style = without_variables(style) + FITTING;
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
              viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{}\"><style>{style}</style>{}</svg>\n",
@@ -139,6 +144,9 @@ impl Svg {
         )
     }
 }
+
+/// A document is shown in its own size where there is room, and smaller on a narrow page.
+pub(crate) const FITTING: &str = "svg:root{max-width:100%;height:auto}";
 
 /// A coordinate with at most one decimal; a value that is no number becomes 0 so that the file stays valid.
 pub(crate) fn pixel(value: f64) -> String {
@@ -323,6 +331,16 @@ mod tests {
         );
         assert_eq!(without_variables(""), "");
         assert_eq!(without_variables("a{b:c}"), "a{b:c}\n");
+    }
+
+    #[test]
+    fn a_document_fits_a_narrow_page() {
+        let document = Svg::default().document([760.0, 480.0], "wide", "");
+        assert!(document.contains("width=\"760\"") && document.contains("viewBox"));
+        assert!(
+            document.contains("max-width:100%;height:auto"),
+            "{document}"
+        );
     }
 
     #[test]
