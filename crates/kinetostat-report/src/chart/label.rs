@@ -62,6 +62,11 @@ impl Labels {
         self.taken.push(frame);
     }
 
+    /// True if something is written or drawn in a frame.
+    pub(crate) fn is_taken(&self, frame: &Frame) -> bool {
+        self.taken.iter().any(|other| other.covers(frame))
+    }
+
     /// Writes a label beside a point, where there is room inside the frame, if possible in the wanted
     /// direction; says if there was room.
     pub(crate) fn place(
@@ -102,7 +107,7 @@ impl Labels {
                 width,
                 height: 14.0,
             };
-            if frame.contains(&area) && !self.taken.iter().any(|other| other.covers(&area)) {
+            if frame.contains(&area) && !self.is_taken(&area) {
                 self.taken.push(area);
                 svg.text(class, [x, y], anchor, label);
                 return true;

@@ -313,13 +313,21 @@ impl Panel {
             svg.path("area", &area_data(&pixels));
         }
         self.draw_limits(svg, frame, &y, &marks, &mut labels);
+        let mut lines = Svg::default();
         for series in &self.series {
             let pixels: Vec<_> = series
                 .values
                 .iter()
                 .map(|value| value.map(|(along, value)| [x.at(along), y.at(value)]))
                 .collect();
-            svg.path(series.class, &path_data(&per_column(&pixels)));
+            lines.path(series.class, &path_data(&per_column(&pixels)));
+        }
+        let values = self.series.iter().flat_map(|series| series.values.iter());
+        match Span::of(values.flatten().map(|value| value.1)) {
+            Some(all) if all.joined(self.span) != self.span => {
+                svg.window([frame.x, frame.y], [frame.width, frame.height], &lines);
+            }
+            _ => svg.append(&lines),
         }
         for (mark, at) in self.marks.iter().zip(&marks) {
             svg.marker("mark", *at, &mark.tooltip);
@@ -346,36 +354,47 @@ impl Panel {
         for limit in &self.limits {
             let at = y.at(limit.value);
             svg.line("limit", [frame.x, at], [frame.right(), at]);
-            let base = if at - 18.0 > frame.y {
-                at - 5.0
-            } else {
-                at + 14.0
-            };
+            labels.reserve(Frame {
+                x: frame.x,
+                y: at - 1.0,
+                width: frame.width,
+                height: 2.0,
+            });
+        }
+        for limit in &self.limits {
+            let at = y.at(limit.value);
             let width = text::width(&limit.label, TEXT_SIZE) + 10.0;
-            let right = Frame {
-                x: frame.right() - width,
-                y: base - 12.0,
-                width,
-                height: 16.0,
+            // Above its line or below, at the right end or, where a marked point needs that, at the left.
+            let places = [frame.right() - width, frame.x].map(|x| {
+                [at - 17.0, at + 2.0].map(|top| Frame {
+                    x,
+                    y: top,
+                    width,
+                    height: 15.0,
+                })
+            });
+            let busy = |place: &Frame| {
+                let base = place.y + 12.0;
+                let near = |mark: &Pixel| {
+                    (place.x - 60.0..place.right() + 60.0).contains(&mark[0])
+                        && (mark[1] - base).abs() < 40.0
+                };
+                marks.iter().any(near)
             };
-            // Placed on the left if a marked point with its label needs the right end.
-            let busy = marks
-                .iter()
-                .any(|mark| mark[0] > right.x - 60.0 && (mark[1] - base).abs() < 40.0);
-            let (area, at, anchor) = if busy {
-                (
-                    Frame {
-                        x: frame.x,
-                        ..right
-                    },
-                    frame.x + 6.0,
-                    Anchor::Start,
-                )
-            } else {
-                (right, frame.right() - 6.0, Anchor::End)
+            let within = |place: &&Frame| place.y >= frame.y && place.bottom() <= frame.bottom();
+            let cost = |place: &Frame| (labels.is_taken(place), busy(place));
+            let places = places.as_flattened();
+            let best = places.iter().filter(within).min_by_key(|p| cost(p));
+            let Some(place) = best.or(places.first()) else {
+                continue;
             };
-            svg.text("limit-name", [at, base], anchor, &limit.label);
-            labels.reserve(area);
+            let (x, anchor) = match place.x > frame.x {
+                true => (frame.right() - 6.0, Anchor::End),
+                false => (frame.x + 6.0, Anchor::Start),
+            };
+            let base = place.y + 12.0;
+            svg.text("limit-name", [x, base], anchor, &limit.label);
+            labels.reserve(*place);
         }
     }
 }
@@ -439,6 +458,9 @@ pub(crate) fn legend(svg: &mut Svg, entries: &[(&str, String)], from: Pixel, rig
         }
         if matches!(*class, "rapids" | "area") {
             svg.rectangle(&format!("{class} swatch"), [x, y - 10.0], [22.0, 12.0], 0.0);
+        } else if class.ends_with(" dots") {
+            let dots = [3.0, 11.0, 19.0].map(|at| Some([x + at, y - 4.0]));
+            svg.path(class, &path_data(&dots.map(|dot| [dot, None]).concat()));
         } else {
             svg.line(class, [x, y - 4.0], [x + 22.0, y - 4.0]);
         }
@@ -446,4 +468,56 @@ pub(crate) fn legend(svg: &mut Svg, entries: &[(&str, String)], from: Pixel, rig
         x += width + 18.0;
     }
     y - from[1] + 19.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Attribute of the first text of a class that says something.
+    fn height_of(svg: &str, text: &str) -> f64 {
+        let before = svg.split(&format!(">{text}<")).next().unwrap_or_default();
+        let y = before.rsplit(" y=\"").next().unwrap_or_default();
+        y.split('"')
+            .next()
+            .and_then(|y| y.parse().ok())
+            .unwrap_or(f64::NAN)
+    }
+
+    #[test]
+    fn no_limit_runs_through_the_name_of_another() {
+        let limit = |value: f64| Limit {
+            value,
+            label: format!("limit {value}"),
+        };
+        let panel = Panel {
+            title: String::new(),
+            y_label: String::new(),
+            span: Span {
+                low: 0.0,
+                high: 100.0,
+            },
+            areas: Vec::new(),
+            series: Vec::new(),
+            limits: vec![limit(50.0), limit(60.0)],
+            marks: Vec::new(),
+        };
+        let span = panel.span;
+        let along = Along::over(span, 1.0, "length of the path, mm", Vec::new());
+        let frame = Frame {
+            x: 0.0,
+            y: 0.0,
+            width: 300.0,
+            height: 100.0,
+        };
+        let mut svg = Svg::default();
+        panel.draw(&mut svg, frame, span, &along, true);
+        let svg = svg.inline("", [300.0, 100.0], "");
+        // The lines lie at 50 and 40 pixels; a name reaches from 12 pixels above its base to 3 below.
+        for name in ["limit 50", "limit 60"] {
+            let base = height_of(&svg, name);
+            let through = |line: &f64| (base - 12.0..base + 3.0).contains(line);
+            assert!(![40.0, 50.0].iter().any(through), "{name} at {base}: {svg}");
+        }
+    }
 }
