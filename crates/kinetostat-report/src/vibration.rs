@@ -6,6 +6,7 @@ use kinetostat_chatter::{Crossing, Instability, LobeDiagram, LobePoint};
 use nalgebra::Complex;
 
 use crate::chart::plot::{Look, Plot, PlotLine, PlotMark, stacked};
+use crate::number;
 
 /// A range of limits of more than this ratio is drawn over logarithms.
 const WIDE: f64 = 12.0;
@@ -15,14 +16,15 @@ const STYLE: &str = include_str!("template/unstable.css");
 
 /// Stability lobes as a document: depth of cut over the spindle speed, what is unstable shaded.
 pub(crate) fn lobes(diagram: &LobeDiagram, title: &str) -> String {
-    let decades = is_wide(diagram);
+    let top = top(diagram);
+    let decades = top > WIDE * smallest(diagram);
     // Below the smallest limit nothing happens; a logarithm has to begin somewhere.
     let floor = match decades {
         true => 0.5 * smallest(diagram),
         false => 0.0,
     };
     let depth = |value: f64| {
-        let mm = 1e3 * if value > floor { value } else { floor };
+        let mm = 1e3 * value.max(floor).min(top);
         if decades { mm.log10() } else { mm }
     };
     let plot = Plot {
@@ -55,8 +57,19 @@ fn smallest(diagram: &LobeDiagram) -> f64 {
         .unwrap_or(1e-3 * diagram.up_to)
 }
 
-fn is_wide(diagram: &LobeDiagram) -> bool {
-    diagram.up_to > WIDE * smallest(diagram)
+/// The depth at which the picture ends: that of the diagram where a speed is stable up to it, else a little above the
+/// highest change of stability, beyond which there is nothing to see.
+fn top(diagram: &LobeDiagram) -> f64 {
+    let highest = |point: &LobePoint| {
+        let zeroth = point.zeroth_order.map_or(0.0, |limit| limit.depth);
+        let all = point.exact.crossings.iter().map(|c| c.depth);
+        all.fold(zeroth, f64::max)
+    };
+    let ends = diagram.points.iter().any(|p| p.exact.limit().is_none());
+    match diagram.points.iter().map(highest).reduce(f64::max) {
+        Some(most) if !ends && 1.2 * most < diagram.up_to => 1.2 * most,
+        _ => diagram.up_to,
+    }
 }
 
 fn lines(diagram: &LobeDiagram, depth: impl Fn(f64) -> f64 + Copy) -> Vec<PlotLine> {
@@ -100,7 +113,10 @@ fn lines(diagram: &LobeDiagram, depth: impl Fn(f64) -> f64 + Copy) -> Vec<PlotLi
         zeroth.collect(),
     ));
     all.push(PlotLine::solid(
-        "stable up to here, the largest depth looked at",
+        format!(
+            "stable up to {} mm, the largest depth looked at (--depth-mm)",
+            number::setting(1e3 * diagram.up_to)
+        ),
         2,
         without_limit(diagram, depth(diagram.up_to)),
     ));
@@ -276,6 +292,7 @@ pub(crate) fn receptance(curves: &[ReceptanceCurve], motion: DrawnMotion, title:
                 .zip(&curve.receptance)
                 .map(|(f, value)| (logarithm(*f), of(&drawn(*f, value))))
                 .collect(),
+            ..PlotLine::default()
         };
     let all = |of: &dyn Fn(&Complex<f64>) -> f64| -> Vec<PlotLine> {
         let numbered = curves.iter().enumerate();

@@ -71,7 +71,14 @@ fn lobes_show_flip_hopf_islands_and_the_zeroth_order_under_its_name() {
     let area = area.split('"').next().unwrap();
     assert_eq!(area.matches('z').count(), 1 + 2 + 2 + 2, "{area}");
     // The last speed has no limit: a line along the largest depth says so.
-    assert!(svg.contains("stable up to here, the largest depth looked at"));
+    assert!(svg.contains("stable up to 20 mm, the largest depth looked at (--depth-mm)"));
+    // Where each speed has a limit, the picture ends a little above the highest change of stability.
+    let limited = LobeDiagram {
+        points: diagram.points[..3].to_vec(),
+        ..diagram.clone()
+    };
+    let svg = lobes_svg(&limited, "limited");
+    assert!(svg.contains(">5<") && !svg.contains(">10<") && !svg.contains(">20<"));
     // Nothing at all is no fault.
     let nothing = LobeDiagram {
         points: vec![],
