@@ -59,24 +59,25 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &FrfAnswer, not_drawn: Option<S
         if c.peak <= NOTHING * most {
             // Rounding of the arithmetic: the machine does not move so.
             let mut row = vec![c.to.to_owned(), c.from.to_owned(), "0".to_owned()];
-            row.push(c.unit.clone());
+            row.push(shown_unit(&c.unit).0.to_owned());
             row.resize(7, String::new());
             rows.push(row);
             continue;
         }
+        let (unit, factor) = shown_unit(&c.unit);
         rows.push(vec![
             c.to.to_owned(),
             c.from.to_owned(),
-            number(c.peak, 4),
-            c.unit.clone(),
+            number(factor * c.peak, 4),
+            unit.to_owned(),
             number(c.peak_hz, 5),
             number(20.0 * c.peak.log10(), 4),
-            number(c.real[0].hypot(c.imaginary[0]), 4),
+            number(factor * c.real[0].hypot(c.imaginary[0]), 4),
         ]);
     }
     out.push_str(&columns(&rows, 0));
     out.push_str(&wrapped(
-        "dB: 20 log10 of the magnitude by 1 of its unit.",
+        "dB: 20 log10 of the magnitude by 1 of its unit in SI, as files have it.",
         0,
     ));
     out.push_str(&wrapped(&natural_frequencies(a, high), 0));
@@ -88,6 +89,15 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &FrfAnswer, not_drawn: Option<S
     }
     out.push_str(&warnings::warnings(&a.warnings));
     out
+}
+
+/// Unit of a response for a person, that of the picture, and its factor from SI.
+fn shown_unit(unit: &str) -> (&str, f64) {
+    match unit {
+        "m/N" => ("um/N", 1e6),
+        "m/(s N)" => ("mm/(s N)", 1e3),
+        _ => (unit, 1.0),
+    }
 }
 
 /// Natural frequencies up to one; of complex pairs with their growth.

@@ -107,7 +107,15 @@ fn modes_are_written_and_drawn_in_two_phases() {
 fn responses_of_the_arm_are_those_of_the_reference_values() {
     let here = arm6();
     let line = "frf arm6.toml --damping 0.03 --frequencies 10 25 2 --from x,z --to x,y,z --json --csv f.csv --plot f.svg";
-    let answer = json(&said(here.path(), line).answered());
+    let told = said(here.path(), line).answered();
+    let drawn = std::fs::read_to_string(here.path().join("f.svg")).expect("SVG");
+    assert!(drawn.contains("receptance, \u{b5}m/N"));
+    assert!(
+        told.err.contains(" um/N ") && !told.err.contains(" m/N "),
+        "{}",
+        told.err
+    );
+    let answer = json(&told);
     let expected = [
         ("x", "x", 0, 1.038_451_45e-6, -8.419_249_25e-8),
         ("y", "x", 0, -8.644_044_13e-7, 1.666_911_64e-7),
