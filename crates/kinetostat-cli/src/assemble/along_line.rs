@@ -246,6 +246,7 @@ pub(crate) fn plot(a: &AlongLine, component: Component) -> Plot {
                     .iter()
                     .map(|p| (p.distance_mm, part(of(p), component)))
                     .collect(),
+                ..PlotLine::default()
             })
             .collect(),
         marks: Vec::new(),

@@ -78,6 +78,7 @@ fn parts(points: &[PointAnswer], specials: &[&NamedPoint], by_load: bool) -> Vec
             name: name.into(),
             colour,
             dashed,
+            dots: false,
             points: vec![first.into()],
         });
         lines.len() - 1

@@ -341,6 +341,7 @@ fn lines(path: &Path, tolerance_mm: f64) -> Vec<PlotLine> {
             name: name.to_owned(),
             colour: 0,
             dashed,
+            dots: false,
             points,
         }
     };

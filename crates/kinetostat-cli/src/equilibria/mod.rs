@@ -298,6 +298,7 @@ fn plot(a: &EquilibriaAnswer) -> Plot {
             colour: e.number - 1,
             dashed: !e.stable,
             points: outline.iter().map(at).collect(),
+            ..PlotLine::default()
         });
         // The number stands where this shape is farthest from all others.
         let farthest = outline

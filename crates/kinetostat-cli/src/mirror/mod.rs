@@ -315,24 +315,20 @@ const MOST: usize = 4000;
 
 fn drawing(title: String, measured: &Measurement, state: &MirrorState) -> String {
     let x_label = "length along the feed moves, mm".to_owned();
-    let along = |k: usize,
-                 name: String,
-                 dashed: bool,
-                 all: &mut dyn Iterator<Item = (f64, Vector3<f64>)>| {
+    let along = |k: usize, name: String, all: &mut dyn Iterator<Item = (f64, Vector3<f64>)>| {
         let points = all.map(|(at, v)| (at, 1e3 * v[k])).collect();
-        PlotLine {
-            name,
-            colour: k,
-            dashed,
-            points,
-        }
+        PlotLine::solid(name, k, points)
     };
     let every = measured.points.len().div_ceil(MOST).max(1);
     let mut lines = Vec::new();
     for (k, axis) in AXES.iter().enumerate() {
         let points = measured.points.iter().step_by(every);
         let mut raw = points.map(|p| (p.along_mm, p.deviation_mm));
-        lines.push(along(k, format!("{axis}, measured"), true, &mut raw));
+        // Readings scatter: joined, they would hide the smoothed line.
+        lines.push(PlotLine {
+            dots: true,
+            ..along(k, format!("{axis}, measured"), &mut raw)
+        });
         let places = state.along_mm.iter().copied();
         let mut smoothed = places.zip(&measured.at_stations).map(|(at, s)| {
             let lost = Vector3::repeat(f64::NAN);
@@ -345,7 +341,7 @@ fn drawing(title: String, measured: &Measurement, state: &MirrorState) -> String
                 },
             )
         });
-        lines.push(along(k, format!("{axis}, smoothed"), false, &mut smoothed));
+        lines.push(along(k, format!("{axis}, smoothed"), &mut smoothed));
     }
     let marks = measured.outliers.iter().map(|outlier| {
         let axis = outlier.deviation_mm.iamax();
@@ -375,7 +371,7 @@ fn drawing(title: String, measured: &Measurement, state: &MirrorState) -> String
             .map(|k| {
                 let places = state.along_mm.iter().copied();
                 let mut all = places.zip(state.correction_mm.iter().copied());
-                along(k, AXES[k].to_owned(), false, &mut all)
+                along(k, AXES[k].to_owned(), &mut all)
             })
             .collect(),
         marks: Vec::new(),

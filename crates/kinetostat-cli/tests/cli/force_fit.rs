@@ -215,7 +215,9 @@ fn a_cut_with_the_fitted_material_gives_the_means_again() {
         let table = std::fs::read_to_string(here.path().join("fit.csv")).unwrap();
         assert_eq!(table.lines().count(), 1 + FEEDS.len());
         let svg = std::fs::read_to_string(here.path().join("fit.svg")).unwrap();
-        assert_eq!(svg.matches("class=\"mark").count(), 6 * FEEDS.len());
+        assert_eq!(svg.matches("class=\"mark").count(), 3 * FEEDS.len());
+        // Residuals are dots, an entry of the legend and a series each.
+        assert_eq!(svg.matches(" dots\"").count(), 6);
     }
     let job = "schema = 1\nprogram = \"slot.ngc\"\n[tool]\ncutter = { shape = \"flat\", diameter_mm = 12, teeth = 4 }\n[material]\nname = \"wax_7\"\nfile = \"own.toml\"\n[stock]\nblock_mm = [[0, -20, -10], [40, 20, 0]]\n";
     std::fs::write(here.path().join("job.toml"), job).unwrap();

@@ -276,6 +276,10 @@ fn what_is_measured_is_said_and_kept_for_the_next_trial() {
     );
     let plot = std::fs::read_to_string(here.path().join("trial1.svg")).unwrap();
     assert!(plot.contains("outlier, row 21"));
+    assert!(
+        plot.contains("class=\"line c0 dots\""),
+        "readings are not joined"
+    );
     let written = std::fs::read_to_string(here.path().join("trial2.ngc")).unwrap();
     assert!(
         written.contains("Z-0.05") || written.contains("Z-0.0499"),

@@ -73,6 +73,39 @@ impl Span {
         }
     }
 
+    /// The span of all values but a few spikes: where at most one value in 50 makes the span more than four times as long as
+    /// all others do, those are left out.
+    pub(crate) fn without_spikes(values: impl Iterator<Item = f64>) -> Option<Self> {
+        let mut all: Vec<f64> = values.filter_map(number::drawable).collect();
+        all.sort_unstable_by(f64::total_cmp);
+        let (low, high) = (*all.first()?, *all.last()?);
+        let whole = Self { low, high };
+        let few = all.len() / 50;
+        let most = Self {
+            low: all[few],
+            high: all[all.len() - 1 - few],
+        };
+        // Values that hardly leave the others are no spikes.
+        let room = 0.5 * most.length();
+        let near = |value: &f64| (most.low - room..=most.high + room).contains(value);
+        let others = Self::of(all.into_iter().filter(near))?;
+        let is_spike =
+            few > 0 && whole.with_near_zero().length() > 4.0 * others.with_near_zero().length();
+        Some(if is_spike { others } else { whole })
+    }
+
+    /// Never so thin that a small change of a large value fills the height: at least a fifth of the largest value.
+    pub(crate) fn moderate(self) -> Self {
+        let least = 0.2 * self.low.abs().max(self.high.abs());
+        if self.length() >= least {
+            return self;
+        }
+        Self {
+            low: self.middle() - 0.5 * least,
+            high: self.middle() + 0.5 * least,
+        }
+    }
+
     /// Never empty, and never so thin that the noise of arithmetic fills the plot.
     pub(crate) fn widened(self) -> Self {
         let size = self.low.abs().max(self.high.abs());
@@ -231,6 +264,32 @@ mod tests {
         assert_eq!(labels(-1.0, -0.5), ["0.1", "0.2", "0.3"]);
         assert_eq!(labels(-2.0, 3.0), ["0.01", "0.1", "1", "10", "100", "1000"]);
         assert!(labels(0.0, f64::INFINITY).is_empty());
+    }
+
+    #[test]
+    fn a_small_change_of_a_large_value_stays_small() {
+        let span = Span::of([296.0, 308.0].into_iter()).unwrap().moderate();
+        let share = 12.0 / span.length();
+        assert!((0.15..0.25).contains(&share), "{span:?}");
+        assert!(span.low > 0.0 && span.low < 296.0 && span.high > 308.0);
+        let wide = Span {
+            low: -1.0,
+            high: 10.0,
+        };
+        assert_eq!(wide.moderate(), wide);
+    }
+
+    #[test]
+    fn a_spike_does_not_squash_the_rest() {
+        let wave = || (0..100).map(|k| f64::from(k % 10));
+        let span = |values: Vec<f64>| Span::without_spikes(values.into_iter()).unwrap();
+        let most = |low: f64, high: f64| Span { low, high };
+        assert_eq!(span(wave().chain([500.0]).collect()), most(0.0, 9.0));
+        assert_eq!(span(wave().chain([-500.0]).collect()), most(0.0, 9.0));
+        // A part of the curve is no spike, nor what lies a little beyond the others.
+        assert_eq!(span(wave().chain([500.0; 20]).collect()), most(0.0, 500.0));
+        assert_eq!(span(wave().chain([20.0]).collect()), most(0.0, 20.0));
+        assert_eq!(span(vec![0.0, 1.0, 500.0]), most(0.0, 500.0));
     }
 
     #[test]

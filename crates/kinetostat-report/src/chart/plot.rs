@@ -34,16 +34,24 @@ pub(crate) struct Look<'a> {
     pub(crate) tight: bool,
     /// Corners of shaded areas, below all lines; together they are one.
     pub(crate) areas: &'a [Vec<(f64, f64)>],
+    /// Ticks have a decimal comma.
+    pub(crate) comma: bool,
     /// Points that lie within the frame, though nothing is drawn there.
     pub(crate) within: &'a [(f64, f64)],
 }
 
 impl Look<'_> {
     fn ticks(&self, axis: usize, span: Span, wanted: usize) -> Vec<Tick> {
-        match self.decades[axis] {
+        let mut ticks = match self.decades[axis] {
             true => span.decade_ticks(),
             false => span.ticks(wanted),
+        };
+        if self.comma {
+            ticks
+                .iter_mut()
+                .for_each(|t| t.label = t.label.replace('.', ","));
         }
+        ticks
     }
 }
 
@@ -75,6 +83,8 @@ pub struct PlotLine {
     pub colour: usize,
     /// Dashed: unstable.
     pub dashed: bool,
+    /// Points alone: readings that scatter are not joined.
+    pub dots: bool,
     /// Abscissa and ordinate; a value that is not finite lifts the pen.
     pub points: Vec<(f64, f64)>,
 }
@@ -87,7 +97,17 @@ impl PlotLine {
             name: name.into(),
             colour,
             dashed: false,
+            dots: false,
             points,
+        }
+    }
+
+    /// Points that are not joined.
+    #[must_use]
+    pub fn dots(name: impl Into<String>, colour: usize, points: Vec<(f64, f64)>) -> Self {
+        Self {
+            dots: true,
+            ..Self::solid(name, colour, points)
         }
     }
 
@@ -165,7 +185,16 @@ impl Plot {
                 .filter(|p| p.0.is_finite() && p.1.is_finite())
         };
         let x = Span::of(points().map(|p| p.0))?;
-        let y = Span::of(points().map(|p| p.1))?;
+        // Logarithms and shapes have room for a spike; a named point is shown wherever it is.
+        let y = match look.shape || look.decades[1] {
+            true => Span::of(points().map(|p| p.1))?,
+            false => {
+                let named = self.marks.iter().filter(|m| !m.name.is_empty());
+                let named = Span::of(named.map(|m| m.at.1));
+                let most = Span::without_spikes(points().map(|p| p.1))?;
+                named.map_or(most, |named| named.joined(most))
+            }
+        };
         // Zero is no value of a logarithm to begin at.
         let begun = |span: Span, as_it_is: bool| match as_it_is {
             true => span.widened(),
@@ -181,13 +210,35 @@ impl Plot {
         } else {
             (
                 beyond(begun(x, look.decades[0] || look.tight)),
-                begun(y, look.decades[1]).padded(0.05, 0.05),
+                match look.decades[1] {
+                    true => begun(y, true),
+                    false => begun(y, false).moderate(),
+                }
+                .padded(0.05, 0.05),
             )
         })
     }
 
-    /// Title and legend; returns the height that they take.
-    fn head(&self, svg: &mut Svg) -> f64 {
+    /// The last line that covers another from end to end, so that only one of them is seen; `height` is that of the frame.
+    fn cover(&self, index: usize, height: f64) -> Option<&PlotLine> {
+        let line = &self.lines[index];
+        let order = |k: usize| (!self.lines[k].dashed, k);
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-3 * height || (a.is_nan() && b.is_nan());
+        let covers = |(k, over): &(usize, &PlotLine)| {
+            let pairs = || over.points.iter().zip(&line.points);
+            order(*k) > order(index)
+                && !over.name.is_empty()
+                && over.name != line.name
+                && !(over.dots || line.dots)
+                && over.points.len() == line.points.len()
+                && pairs().all(|(a, b)| a.0.total_cmp(&b.0).is_eq() && near(a.1, b.1))
+        };
+        let all = self.lines.iter().enumerate();
+        all.filter(covers).next_back().map(|(_, over)| over)
+    }
+
+    /// Title and legend; returns the height that they take. `height` is that of the frame in the unit of the vertical axis.
+    fn head(&self, svg: &mut Svg, height: f64) -> f64 {
         let mut base = 28.0;
         for line in title_lines(&self.title, SIZE[0] - 36.0) {
             svg.text("title", [18.0, base], Anchor::Start, &line);
@@ -196,8 +247,12 @@ impl Plot {
         // Solid lines first, each group in the order of the lines.
         let mut entries: Vec<(String, String)> = Vec::new();
         for dashed in [false, true] {
-            for line in &self.lines {
-                let entry = (class(line), line.name.clone());
+            for (k, line) in self.lines.iter().enumerate() {
+                let name = match self.cover(k, height) {
+                    Some(over) => format!("{} (under {})", line.name, over.name),
+                    None => line.name.clone(),
+                };
+                let entry = (class(line), name);
                 if line.dashed == dashed && !line.name.is_empty() && !entries.contains(&entry) {
                     entries.push(entry);
                 }
@@ -222,7 +277,7 @@ impl Plot {
             svg.text("name", middle, Anchor::Middle, "no points to show");
             return svg;
         };
-        let top = self.head(&mut svg);
+        let top = self.head(&mut svg, y_span.length());
         let height = size[1] - top - 54.0;
         if look.shape {
             let width = size[0] - gutter(&look.ticks(1, y_span, 7)) - 24.0;
@@ -252,9 +307,48 @@ impl Plot {
         };
         svg.path("unstable", &polygons(look.areas, pixel));
         let mut names = Names::within(frame);
-        self.draw_lines(&mut svg, &mut names, pixel);
-        self.draw_marks(&mut svg, &mut names, pixel);
+        let spike = self.spike(y_span);
+        let mut lines = Svg::default();
+        self.draw_lines(&mut lines, &mut names, pixel);
+        match spike {
+            Some(_) => svg.window([frame.x, frame.y], [frame.width, frame.height], &lines),
+            None => svg.append(&lines),
+        }
+        // What lies beyond is shown at the edge.
+        let within = |p: &(f64, f64)| {
+            let edge = |[x, y]: Pixel| match y {
+                y if y < frame.y - 1.0 => [x, frame.y + 8.0],
+                y if y > frame.bottom() + 1.0 => [x, frame.bottom() - 8.0],
+                y => [x, y],
+            };
+            pixel(p).map(edge)
+        };
+        if let Some((at, arrow)) = spike
+            && let Some(edge) = within(&at)
+        {
+            let value = number::significant(at.1, 4, number::Rounding::Nearest);
+            names.write(&mut svg, edge, &format!("{arrow} up to {value}"));
+        }
+        self.draw_marks(&mut svg, &mut names, within);
         svg
+    }
+
+    /// The point that lies farthest beyond a span, and an arrow to it.
+    fn spike(&self, span: Span) -> Option<((f64, f64), char)> {
+        let points = self.lines.iter().flat_map(|line| line.points.iter());
+        let points = points.copied().chain(self.marks.iter().map(|mark| mark.at));
+        let beyond = |p: &(f64, f64)| match p.1 > span.high {
+            true => p.1 - span.high,
+            false => span.low - p.1,
+        };
+        let slack = 1e-9 * span.length();
+        let outside = points.filter(|p| p.0.is_finite() && p.1.is_finite() && beyond(p) > slack);
+        let farthest = outside.reduce(|a, b| if beyond(&b) > beyond(&a) { b } else { a })?;
+        let arrow = match farthest.1 > span.high {
+            true => '\u{2191}',
+            false => '\u{2193}',
+        };
+        Some((farthest, arrow))
     }
 
     /// Ground, grid, ticks and the names of the axes.
@@ -309,7 +403,10 @@ impl Plot {
                 let pixels: Vec<_> = line.points.iter().map(&pixel).collect();
                 names.line(&pixels, 1.0);
                 let class = class(line);
-                let data = if dashed {
+                let data = if line.dots {
+                    let apart = pixels.iter().flat_map(|p| [*p, None]);
+                    path_data(&apart.collect::<Vec<_>>())
+                } else if dashed {
                     let drawn = drawn.entry(class.clone()).or_default();
                     path_data(&drawn.fresh(&pixels))
                 } else {
@@ -408,8 +505,12 @@ fn about(span: &Span, length: f64) -> Span {
 
 fn class(line: &PlotLine) -> String {
     let colour = COLOURS[line.colour % COLOURS.len()];
-    let dashed = if line.dashed { " dashed" } else { "" };
-    format!("line {colour}{dashed}")
+    let kind = match (line.dots, line.dashed) {
+        (true, _) => " dots",
+        (false, true) => " dashed",
+        (false, false) => "",
+    };
+    format!("line {colour}{kind}")
 }
 
 #[cfg(test)]
@@ -422,6 +523,7 @@ mod tests {
             name: name.into(),
             colour: 0,
             dashed,
+            dots: false,
             points: vec![(0.0, 0.0), (1.0, 2.0), (f64::NAN, 1.0), (2.0, 1.0)],
         };
         let plot = Plot {
@@ -446,6 +548,61 @@ mod tests {
         assert!(!svg.contains("NaN") && !svg.contains("<and>"));
         assert!(plot.shape_svg().contains("limit point"));
         assert!(Plot::default().svg().contains("no points to show"));
+    }
+
+    #[test]
+    fn what_scatters_is_not_joined_and_what_is_covered_is_said() {
+        let points = |shift: f64| {
+            (0..4)
+                .map(|k| (f64::from(k), shift + f64::from(k)))
+                .collect()
+        };
+        let plot = Plot {
+            lines: vec![
+                PlotLine::dots("readings", 2, points(0.0)),
+                PlotLine::solid("x", 0, points(0.0)),
+                PlotLine::solid("y", 1, points(1e-4)),
+                PlotLine::solid("z", 3, points(1.0)),
+            ],
+            ..Plot::default()
+        };
+        let svg = plot.svg();
+        let dots = svg.split("class=\"line c2 dots\" d=\"").nth(2).unwrap();
+        let dots = dots.split('"').next().unwrap();
+        assert_eq!(
+            (dots.matches('M').count(), dots.matches("h0").count()),
+            (4, 4)
+        );
+        assert!(svg.contains(">x (under y)<") && svg.contains(">y<") && svg.contains(">z<"));
+    }
+
+    #[test]
+    fn a_spike_is_cut_off_and_told() {
+        let mut points: Vec<_> = (0..100)
+            .map(|k| (f64::from(k), f64::from(k % 10)))
+            .collect();
+        points[50].1 = 1234.0;
+        let mut plot = Plot {
+            lines: vec![PlotLine::solid("", 0, points)],
+            ..Plot::default()
+        };
+        let svg = plot.svg();
+        assert!(
+            svg.contains("up to 1\u{202f}234<") && svg.contains(">8<"),
+            "{svg}"
+        );
+        assert_eq!(svg.matches("viewBox").count(), 2);
+        // A named point is what the picture is about.
+        plot.marks = vec![PlotMark {
+            at: (50.0, 1234.0),
+            name: "limit point".into(),
+            detail: String::new(),
+        }];
+        let svg = plot.svg();
+        assert!(
+            !svg.contains("up to") && svg.contains(">1\u{202f}000<"),
+            "{svg}"
+        );
     }
 
     #[test]

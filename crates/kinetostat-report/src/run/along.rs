@@ -57,7 +57,11 @@ pub(crate) fn stiffness(result: &Shown<'_>, sheet: Sheet) -> String {
                 result.figures.stiffness
             ),
             y_label: "stiffness, N/mm".to_owned(),
-            span: span.with_near_zero().widened().padded(0.08, 0.08),
+            span: span
+                .with_near_zero()
+                .widened()
+                .moderate()
+                .padded(0.08, 0.08),
             areas: Vec::new(),
             series: vec![Series {
                 class: "line strong",
@@ -264,12 +268,13 @@ fn actuator_panel(
     most: Option<&String>,
     values: Vec<Option<(f64, f64)>>,
 ) -> Option<Panel> {
-    let span = span_of(&values)?;
+    // The title tells the largest value, a spike included.
+    let span = Span::without_spikes(values.iter().flatten().map(|value| value.1))?;
     let most = most.map_or_else(|| MISSING.to_owned(), |most| text::clean(most));
     Some(Panel {
         title: format!("{name}: {word} up to {most}"),
         y_label: text::shorten(unit, 8),
-        span: span.with_near_zero().widened(),
+        span: span.with_near_zero().widened().moderate(),
         areas: Vec::new(),
         series: vec![Series {
             class: if word == "correction" {

@@ -305,6 +305,7 @@ pub(crate) fn fig_4_5() -> Result<Contents, Cause> {
                     },
                     colour,
                     dashed: !f.stable,
+                    dots: false,
                     points: outline(&chain, &e.coordinates, &["middle"]),
                 });
             }

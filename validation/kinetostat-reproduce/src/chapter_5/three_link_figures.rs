@@ -181,6 +181,7 @@ pub(crate) fn fig_5_6() -> Result<Contents, Cause> {
                 },
                 colour,
                 dashed: !stable,
+                dots: false,
                 points: links(&e),
             });
         }
@@ -220,6 +221,7 @@ pub(crate) fn fig_5_8() -> Result<Contents, Cause> {
                 },
                 colour,
                 dashed: !e.stable,
+                dots: false,
                 points: links(e),
             });
         }

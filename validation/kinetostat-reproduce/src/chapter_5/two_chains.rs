@@ -79,6 +79,7 @@ pub(crate) fn fig_5_2() -> Result<Contents, Cause> {
             name: name.into(),
             colour,
             dashed: wanted != [true, true],
+            dots: false,
             points: outline(&first.equilibrium),
         });
     }

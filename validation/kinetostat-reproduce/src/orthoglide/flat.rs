@@ -458,6 +458,7 @@ fn solid_and_dashed(places: &[DiagonalPoint], colour: usize, name: &str) -> Vec<
                     ),
                     colour,
                     dashed: !place.stable,
+                    dots: false,
                     points: end.into_iter().chain([point]).collect(),
                 });
             }

@@ -147,6 +147,7 @@ fn figure(case: &Orthoglide, name: &str) -> Result<Contents, Cause> {
                     colour,
                     // Close to the fourth: dashes let both be seen.
                     dashed: colour == 4,
+                    dots: false,
                     points: points.iter().map(|(y, s)| (*y, of(s)[axis])).collect(),
                 })
                 .collect(),

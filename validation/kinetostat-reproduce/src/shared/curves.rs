@@ -103,6 +103,7 @@ fn begun(drawn: &Drawn<'_>, dashed: bool, points: Vec<(f64, f64)>) -> PlotLine {
         name: if dashed { "" } else { drawn.name }.to_owned(),
         colour: drawn.colour,
         dashed,
+        dots: false,
         points,
     }
 }

@@ -105,6 +105,7 @@ fn drawing(a: &FitAnswer) -> String {
             .iter()
             .map(|at| (at.feed_mm_per_tooth, of(at)))
             .collect(),
+        ..PlotLine::default()
     };
     let mut lines: Vec<PlotLine> = (0..3)
         .map(|k| line(k, NAMES[k], false, &|at| at.fitted_n[k]))
@@ -126,47 +127,40 @@ fn drawing(a: &FitAnswer) -> String {
         x_label: OVER.into(),
         y_label: "mean force on the tool, N".into(),
         lines,
-        marks: marks(a, |k| NAMES[k], |row| row.force_n),
+        marks: marks(a),
     };
     let residuals = Plot {
         title: "Measured less fitted".into(),
         x_label: OVER.into(),
         y_label: "residual, N".into(),
         lines: residual_lines(a),
-        marks: marks(a, |k| NAMES[k], |row| row.residual_n),
+        marks: Vec::new(),
     };
     forces.svg_above(&[residuals])
 }
 
-/// The residuals in the order of their feeds, and the axis that they scatter about.
+/// The residuals, and the axis that they scatter about.
 fn residual_lines(a: &FitAnswer) -> Vec<PlotLine> {
     let last = a.lines.last().map_or(0.0, |at| at.feed_mm_per_tooth);
     let zero = PlotLine::dashed(String::new(), 5, vec![(0.0, 0.0), (last, 0.0)]);
     let of = |k: usize| {
         let rows = a.rows.iter();
-        let mut points: Vec<(f64, f64)> = rows
-            .map(|row| (row.feed_mm_per_tooth, row.residual_n[k]))
-            .collect();
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        PlotLine::solid(["Fx", "Fy", "Fz"][k], k, points)
+        let points = rows.map(|row| (row.feed_mm_per_tooth, row.residual_n[k]));
+        PlotLine::dots(["Fx", "Fy", "Fz"][k], k, points.collect())
     };
     (0..3).map(of).chain([zero]).collect()
 }
 
-fn marks(
-    a: &FitAnswer,
-    name: impl Fn(usize) -> &'static str,
-    of: impl Fn(&crate::force::fit::answer::FitRow) -> [f64; 3],
-) -> Vec<PlotMark> {
+/// The measured forces.
+fn marks(a: &FitAnswer) -> Vec<PlotMark> {
     let mut marks = Vec::new();
     for row in &a.rows {
-        for (k, force) in of(row).into_iter().enumerate() {
+        for (name, force) in NAMES.iter().zip(row.force_n) {
             marks.push(PlotMark {
                 at: (row.feed_mm_per_tooth, force),
                 name: String::new(),
                 detail: format!(
-                    "{}: {} N at {} mm per tooth",
-                    name(k),
+                    "{name}: {} N at {} mm per tooth",
                     number(force, 4),
                     given(row.feed_mm_per_tooth)
                 ),
