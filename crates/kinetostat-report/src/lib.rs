@@ -15,7 +15,7 @@
 //! - `drawing`: a machine in space, as lines on paper.
 //! - `vibration`: stability lobes and receptances.
 //! - `turns`: the free turn of a round tool along a path, over all turns that were tried.
-//! - `paper`: the report without pictures, to be signed, as PDF or HTML in three languages.
+//! - `paper`: the report to be signed, as PDF without pictures or HTML with two, in three languages.
 //! - `number` and `text` decide how numbers and names look, in one place.
 //!
 //! # Why the plots are drawn here and not by a plotting library

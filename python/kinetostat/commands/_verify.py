@@ -181,8 +181,8 @@ def verify(
     pdf : path
         The report without pictures as PDF, to be signed and filed
     language : Literal["en", "fr", "de"]
-        Language of the reports [default: en]. In French and German the HTML report has no pictures
-        either
+        Language of the reports [default: en]. In French and German the HTML report is the paper,
+        with two pictures
     points : path
         Points of the path as a table: CSV, of long programs the worst of every stretch; Parquet
         with every point where the name ends in .parquet

@@ -105,7 +105,7 @@ pub(crate) struct ProgramArgs {
     /// The report without pictures as PDF, to be signed and filed
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) pdf: Option<PathBuf>,
-    /// Language of the reports [default: en]. In French and German the HTML report has no pictures either
+    /// Language of the reports [default: en]. In French and German the HTML report is the paper, with two pictures
     #[arg(long, value_enum, value_name = "LANGUAGE", help_heading = "Outputs")]
     pub(crate) language: Option<LanguageWord>,
     /// Points of the path as a table: CSV, of long programs the worst of every stretch; Parquet with every point where the name ends

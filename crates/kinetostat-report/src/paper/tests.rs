@@ -85,6 +85,28 @@ fn said(paper: &Paper<'_>) -> String {
 }
 
 #[test]
+fn pages_in_every_language_have_pictures_in_its_words() {
+    let mut result = run();
+    for x in [10.0, 20.0] {
+        let mut point = PointResult::default();
+        (point.path_mm, point.position_mm) = (x, [x, 0.5 * x, 0.0]);
+        point.error_before_mm = [0.025 * x, 0.0, 0.0];
+        result.points.push(point);
+    }
+    for (language, words) in [
+        (Language::English, "programmed path"),
+        (Language::French, "trajectoire programmée"),
+        (Language::German, "programmierte Bahn"),
+    ] {
+        let paper = Paper::of(&result).in_language(language);
+        let page = paper.html();
+        assert_eq!(page.matches("<img").count(), 2, "{page}");
+        assert!(page.contains(words), "{language:?}");
+        assert_eq!(page.contains("%3E0,2%3C"), language != Language::English);
+    }
+}
+
+#[test]
 fn every_language_states_the_same_figures() {
     let result = run();
     for language in Language::ALL {

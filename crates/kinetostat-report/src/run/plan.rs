@@ -449,7 +449,7 @@ fn draw_legend(
 }
 
 /// Uncompensated place of the tool, the deviation magnified; `None` for rapids.
-fn displaced(point: &PointResult, magnification: f64) -> Option<[f64; 3]> {
+pub(crate) fn displaced(point: &PointResult, magnification: f64) -> Option<[f64; 3]> {
     if point.kind == PointKind::Rapid {
         return None;
     }

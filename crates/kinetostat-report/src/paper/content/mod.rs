@@ -1,6 +1,7 @@
 //! Contents of a paper, in order.
 
 mod of;
+mod pictures;
 pub(crate) mod sections;
 
 use kinetostat_machining::Level;
@@ -39,6 +40,7 @@ pub(crate) fn contents(paper: &Paper<'_>, result: &Shown<'_>) -> Contents {
         blocks.push(Block::Note(words.quoted.to_owned()));
     }
     blocks.extend(results(&of));
+    blocks.extend(pictures::pictures(&of));
     blocks.extend(sections::features(&of));
     blocks.extend(sections::worst(&of));
     blocks.extend(sections::drives(&of));

@@ -94,6 +94,13 @@ pub(crate) struct Words {
     pub(crate) missed_here: &'static str,
     pub(crate) nothing_cut: &'static str,
     /// Worst lines.
+    /// Pictures: what they show, their axes and lines.
+    pub(crate) picture_along: &'static str,
+    pub(crate) picture_above: &'static str,
+    pub(crate) along_path: &'static str,
+    pub(crate) distance: &'static str,
+    pub(crate) programmed: &'static str,
+    pub(crate) displaced: &'static str,
     pub(crate) worst_note: &'static str,
     pub(crate) worst_note_verified: &'static str,
     pub(crate) worst_after_note: &'static str,
