@@ -93,7 +93,12 @@ impl Ask {
             ),
             Self::Tool => {
                 let named = program.and_then(|p| p.tools.get(answers.tools.len()));
-                let which = named.map_or_else(|| "the tool".to_owned(), |name| format!("{name}, which the program does not state"));
+                let which = match (named, answers.to.flatten()) {
+                    (Some(name), _) => format!("{name}, which the program does not state"),
+                    // The cell states how the tool stands in the part: z into it.
+                    (None, Some(_)) => "the tool, z of its frame out of the spindle".to_owned(),
+                    (None, None) => "the tool".to_owned(),
+                };
                 (
                     format!("Tip of {which}, in axes of the flange: X Y Z in mm, or its length along z"),
                     POSE_HELP.into(),
