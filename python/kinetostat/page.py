@@ -107,7 +107,7 @@ class View:
 
         def answer(widget: Any, message: Any, buffers: Any) -> None:
             number = message.get("id") if isinstance(message, dict) else None
-            asked = {"state": native.state, "modes": native.modes}.get(message.get("kinetostat")) if number is not None else None
+            asked = {"state": native.state, "modes": native.modes, "curve": native.curve}.get(message.get("kinetostat")) if number is not None else None
             if asked is None:
                 return
             try:

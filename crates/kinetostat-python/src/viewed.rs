@@ -30,6 +30,10 @@ impl Viewed {
         py.detach(|| self.0.state(request)).map_err(of_refused)
     }
 
+    fn curve(&self, py: Python<'_>, request: &str) -> PyResult<String> {
+        py.detach(|| self.0.curve(request)).map_err(of_refused)
+    }
+
     fn modes(&self, py: Python<'_>, request: &str) -> PyResult<String> {
         py.detach(|| self.0.modes(request)).map_err(of_refused)
     }

@@ -51,8 +51,9 @@ use run::Shown;
 use run::page;
 
 pub use chart::bars::{Bar, Bars};
+pub use chart::cell::Cell;
 pub use chart::plot::{Plot, PlotLine, PlotMark};
-pub use chart::section::{Cell, Section};
+pub use chart::section::Section;
 pub use drawing::{Drawing, Magnified, Moved, Placed, Scene, ShownPose, View};
 pub use paper::document::Document;
 pub use paper::language::Language;

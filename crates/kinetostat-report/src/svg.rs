@@ -300,6 +300,20 @@ fn valued(value: &str, values: &Values<'_>) -> String {
     out + rest
 }
 
+/// A drawing within an attribute: an image has a style sheet of its own, which does not reach the page.
+pub(crate) fn picture_address(svg: &str) -> String {
+    let mut out = "data:image/svg+xml,".to_owned();
+    for letter in svg.chars() {
+        match letter {
+            '%' | '#' | '"' | '<' | '>' | '&' | '\n' => {
+                let _ = write!(out, "%{:02X}", u32::from(letter));
+            }
+            other => out.push(other),
+        }
+    }
+    out
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,8 +2,9 @@
 
 use kinetostat_machining::TurnChoice;
 
+use crate::chart::cell::Cell;
 use crate::chart::plot::PlotLine;
-use crate::chart::section::{Cell, Section};
+use crate::chart::section::Section;
 
 /// Maximum number of columns and rows of cells; of more stations and turns those nearest to them are shown.
 const MOST: usize = 360;

@@ -22,6 +22,12 @@ pub trait Answers: Send + Sync + 'static {
     /// As for [`Answers::state`]; a machine without masses.
     fn modes(&self, request: &[u8]) -> Result<String, Refused>;
 
+    /// Equilibria of the machine while a load on it grows.
+    ///
+    /// # Errors
+    /// As for [`Answers::state`]; a state without a load.
+    fn curve(&self, request: &[u8]) -> Result<String, Refused>;
+
     /// The path of the program of the session, if it has one.
     fn path(&self) -> Option<String>;
 }

@@ -126,6 +126,7 @@ fn routes(answers: Arc<dyn Answers>, names: Names) -> Router {
         .route("/api/path", get(path))
         .route("/api/state", post(state))
         .route("/api/modes", post(modes))
+        .route("/api/curve", post(curve))
         .fallback(nothing)
         .layer(DefaultBodyLimit::max(MOST_BYTES))
         .layer(axum::middleware::from_fn(in_time))
@@ -174,6 +175,10 @@ async fn state(State(answers): Session, body: Body) -> Response {
 
 async fn modes(State(answers): Session, body: Body) -> Response {
     asked(body, move |body| answers.modes(body)).await
+}
+
+async fn curve(State(answers): Session, body: Body) -> Response {
+    asked(body, move |body| answers.curve(body)).await
 }
 
 async fn asked(

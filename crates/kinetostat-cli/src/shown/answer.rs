@@ -135,6 +135,52 @@ pub(crate) struct ModeOfState {
     pub(crate) moved: Scene,
 }
 
+/// A load that grows, from 0 to a factor of that of a state.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CurveRequest {
+    pub(crate) state: StateRequest,
+    pub(crate) factor: f64,
+}
+
+/// Equilibria of a machine while the load on its tool grows.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct CurveOfState {
+    /// Unit of `along`: `mm` along the force, `deg` about a moment without one.
+    pub(crate) unit: &'static str,
+    /// That of the unloaded machine first.
+    pub(crate) branches: Vec<CurveBranch>,
+    pub(crate) marks: Vec<CurveMark>,
+    /// There are more branches than these.
+    pub(crate) more_branches: bool,
+}
+
+/// A branch of equilibria in order.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct CurveBranch {
+    pub(crate) places: Vec<CurvePlace>,
+}
+
+/// An equilibrium.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct CurvePlace {
+    /// Factor of the load.
+    pub(crate) factor: f64,
+    /// Displacement of the tool along the load.
+    pub(crate) along: f64,
+    /// Under this load, which stays as it is.
+    pub(crate) stable: bool,
+    pub(crate) shape: Scene,
+}
+
+/// A special point of a curve.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct CurveMark {
+    pub(crate) words: String,
+    pub(crate) factor: f64,
+    pub(crate) along: f64,
+}
+
 /// The path of a program.
 #[derive(Clone, Serialize, JsonSchema)]
 pub(crate) struct PathAnswer {

@@ -1,6 +1,7 @@
 //! A machine in three dimensions: states of it and the path of its program, for a page with a server and for one without.
 
 pub(crate) mod answer;
+mod curve;
 pub(crate) mod in_report;
 mod modes;
 pub(crate) mod path;

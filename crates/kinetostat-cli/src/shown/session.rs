@@ -11,14 +11,16 @@ use kinetostat_view::{Answers, Refused, exported};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use crate::machine::units::unit;
 use crate::place::arguments::PlaceArgs;
 use crate::place::joints;
 use crate::place::query::place_query_of;
 use crate::shown::answer::{
-    ActuatorRange, Exported, ExportedState, MachineAnswer, StateAnswer, StateRequest,
+    ActuatorRange, CurveRequest, Exported, ExportedState, MachineAnswer, StateAnswer, StateRequest,
 };
+use crate::shown::curve::curve_of;
 use crate::shown::modes::modes_of;
 use crate::shown::path::ShownPath;
 use crate::shown::state::state_of;
@@ -214,7 +216,7 @@ impl From<Failure> for Refused {
     }
 }
 
-pub(crate) fn read(request: &[u8]) -> Result<StateRequest, Refused> {
+pub(crate) fn read<R: DeserializeOwned>(request: &[u8]) -> Result<R, Refused> {
     serde_json::from_slice(request)
         .map_err(|error| Refused::new("value", format!("the request is not understood: {error}")))
 }
@@ -235,6 +237,12 @@ impl Answers for Session {
     fn modes(&self, request: &[u8]) -> Result<String, Refused> {
         let (posture, wrench) = self.asked(&read(request)?)?;
         json(&modes_of(&posture, &wrench)?)
+    }
+
+    fn curve(&self, request: &[u8]) -> Result<String, Refused> {
+        let request: CurveRequest = read(request)?;
+        let (posture, wrench) = self.asked(&request.state)?;
+        json(&curve_of(&posture, &wrench, request.factor)?)
     }
 
     fn path(&self) -> Option<String> {

@@ -43,4 +43,12 @@ impl Viewed {
     pub fn modes(&self, request: &str) -> Result<String, Refused> {
         Answers::modes(&self.0, request.as_bytes())
     }
+
+    /// Equilibria while the load of a state grows.
+    ///
+    /// # Errors
+    /// As for [`Viewed::page`]; a state without a load.
+    pub fn curve(&self, request: &str) -> Result<String, Refused> {
+        Answers::curve(&self.0, request.as_bytes())
+    }
 }

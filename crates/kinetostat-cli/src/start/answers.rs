@@ -7,8 +7,8 @@ use kinetostat_model::schema::AxisName;
 use crate::job::format::WeightWord;
 use crate::job::target_word::RobotWord;
 use crate::job::tool_mass::MASSES_KG;
+use crate::start::ask::Ask;
 use crate::start::facts::Facts;
-use crate::start::question::Ask;
 use crate::start::reading::{
     Cut, Engaged, NONE, Stated, above_zero, cut, engaged, numbers, one_of, wrong,
 };

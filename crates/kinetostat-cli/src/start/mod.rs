@@ -3,6 +3,7 @@
 //! It takes answers line by line and writes model, cell and job; then the job is compensated.
 
 mod answers;
+mod ask;
 mod draft;
 mod facts;
 mod question;
@@ -21,7 +22,8 @@ use crate::files::made_folder::in_folder;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::options::EXIT_CODES;
 use crate::start::answers::Answers;
-use crate::start::question::Ask;
+use crate::start::ask::Ask;
+use crate::start::question::Question;
 use crate::start::reading::wrong;
 use crate::ui::failure::{Answer, Failing};
 use crate::ui::given::Given;
@@ -115,7 +117,7 @@ fn interview(answers: &mut Answers, existing: Existing) -> Answer<()> {
     let mut lines = std::io::stdin().lock().lines();
     let is_person = std::io::stdin().is_terminal();
     while let Some(ask) = answers.next() {
-        let question = ask.question(answers);
+        let question = Question::of(ask, answers);
         let usual = question
             .usual
             .map_or_else(String::new, |usual| format!(" [{usual}]"));

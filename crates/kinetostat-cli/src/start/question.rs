@@ -4,33 +4,8 @@ use kinetostat_cutting::Materials;
 use kinetostat_model::preset_names;
 
 use crate::start::answers::Answers;
+use crate::start::ask::Ask;
 use crate::start::reading::NONE;
-
-/// What is asked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Ask {
-    Robot,
-    Tip,
-    FlangeAxis,
-    JointStiffness,
-    Program,
-    To,
-    Numbers,
-    SpindleStart,
-    SpindleStop,
-    Tool,
-    ToolAxis,
-    Mass,
-    Part,
-    Weight,
-    TouchOff,
-    Cut,
-    Cutter,
-    Engaged,
-    Speed,
-    Air,
-    Tolerance,
-}
 
 /// A question.
 pub(super) struct Question {
@@ -43,11 +18,11 @@ pub(super) struct Question {
 
 const POSE_HELP: &str = "X Y Z in mm, and behind them the orientation if it is not parallel: A B C of KUKA or W P R of FANUC in degrees, four numbers of a quaternion (w first, as ABB has it), or CONVENTION=numbers.";
 
-impl Ask {
-    pub(super) fn question(self, answers: &Answers) -> Question {
+impl Question {
+    pub(super) fn of(ask: Ask, answers: &Answers) -> Self {
         let program = answers.program.as_ref();
-        let (words, help, usual): (String, String, Option<&'static str>) = match self {
-            Self::Robot => {
+        let (words, help, usual): (String, String, Option<&'static str>) = match ask {
+            Ask::Robot => {
                 let names: Vec<&str> = preset_names().iter().map(|preset| preset.name).collect();
                 (
                     "Robot: a preset, a model file or a URDF".into(),
@@ -55,43 +30,43 @@ impl Ask {
                     None,
                 )
             }
-            Self::Tip => ("Link of the URDF that carries the tool".into(), "As in tool0 or flange.".into(), None),
-            Self::FlangeAxis => (
+            Ask::Tip => ("Link of the URDF that carries the tool".into(), "As in tool0 or flange.".into(), None),
+            Ask::FlangeAxis => (
                 "Axis of that link that points out of the flange: x, y or z".into(),
                 "x of `flange` in ROS, z of `tool0`.".into(),
                 Some("z"),
             ),
-            Self::JointStiffness => (
+            Ask::JointStiffness => (
                 "Stiffness of the joints, N m/rad, one number for all, or a table (CSV: name,value,unit)".into(),
                 "A URDF says nothing of what bends. The answers that follow are as true as this number: `kinetostat plan-measurement` says where to pull, and `kinetostat identify` finds it from what was measured.".into(),
                 None,
             ),
-            Self::Program => (
+            Ask::Program => (
                 "Program".into(),
                 "G-code, or a program of a robot or a control (`kinetostat dialect list`). What stands beside it and is called is read with it.".into(),
                 None,
             ),
-            Self::To => (
+            Ask::To => (
                 "Language that the machine takes: g-code, krl, rapid or ls".into(),
                 "A robot takes its own: krl of KUKA, rapid of ABB, ls of FANUC. The program is written in it.".into(),
                 Some("g-code"),
             ),
-            Self::Numbers => (
+            Ask::Numbers => (
                 "Numbers of the user frame and the tool frame at the controller".into(),
                 "As in 3 2 for UF : 3 and UT : 2.".into(),
                 Some("1 1"),
             ),
-            Self::SpindleStart => (
+            Ask::SpindleStart => (
                 "Statements by which this controller starts the spindle, {rpm} for its speed; none if something else does".into(),
                 "They stand where the program says M3. Several are divided by |, as in $ANOUT[1]={rpm}/24000.0 | $OUT[12]=TRUE.".into(),
                 Some(NONE),
             ),
-            Self::SpindleStop => (
+            Ask::SpindleStop => (
                 "Statements that stop it".into(),
                 "They stand where the program says M5, as in $OUT[12]=FALSE.".into(),
                 Some(NONE),
             ),
-            Self::Tool => {
+            Ask::Tool => {
                 let named = program.and_then(|p| p.tools.get(answers.tools.len()));
                 let which = match (named, answers.to.flatten()) {
                     (Some(name), _) => format!("{name}, which the program does not state"),
@@ -105,32 +80,32 @@ impl Ask {
                     None,
                 )
             }
-            Self::ToolAxis => (
+            Ask::ToolAxis => (
                 "Axis of the tool's frame that points from its tip to the spindle: x, -x, y, -y, z or -z".into(),
                 "At KUKA the tool's x often points out of the spindle: then it is -x.".into(),
                 None,
             ),
-            Self::Mass => (
+            Ask::Mass => (
                 "Mass of spindle and tool on the flange, kg; 0 if the model has it".into(),
                 "Its weight bends the arm. The centre is taken halfway to the tip; centre_of_mass_mm under [tool] says better.".into(),
                 None,
             ),
-            Self::Part => {
+            Ask::Part => {
                 let work_object = program.and_then(|p| p.work_object.as_deref());
                 let which = work_object.map_or_else(|| "program's zero".to_owned(), |name| format!("work object {name}"));
                 (format!("Place of the {which} in the robot's base: X Y Z in mm"), POSE_HELP.into(), None)
             }
-            Self::Weight => (
+            Ask::Weight => (
                 "How that place was found: touch-off, all or none".into(),
                 "touch-off: this robot touched the part, hanging as it hangs while it cuts, so that its own sag is in the numbers. all: it was measured without this robot. none: the controller corrects the weight.".into(),
                 None,
             ),
-            Self::TouchOff => (
+            Ask::TouchOff => (
                 "Where it touched, in coordinates of the program: X Y Z in mm".into(),
                 "The weight counts as zero there; what is corrected is how the sag changes from there.".into(),
                 Some("0 0 0"),
             ),
-            Self::Cut => {
+            Ask::Cut => {
                 let materials = Materials::library();
                 let names: Vec<&str> = materials.iter().map(|material| material.name.as_str()).collect();
                 (
@@ -139,20 +114,20 @@ impl Ask {
                     None,
                 )
             }
-            Self::Cutter => ("End mill: diameter in mm, number of teeth, helix in deg".into(), "As in 12 4 38.".into(), None),
-            Self::Engaged => (
+            Ask::Cutter => ("End mill: diameter in mm, number of teeth, helix in deg".into(), "As in 12 4 38.".into(), None),
+            Ask::Engaged => (
                 "Block before the cut, two corners in coordinates of the program; or width and depth of the cut in mm and the side of the feed on which the part is".into(),
                 "As in 0 0 -20 200 100 0, or 4 2 right.".into(),
                 None,
             ),
-            Self::Speed => ("Speed of the spindle, 1/min, which turns clockwise".into(), "The program does not state it.".into(), None),
-            Self::Air => (
+            Ask::Speed => ("Speed of the spindle, 1/min, which turns clockwise".into(), "The program does not state it.".into(), None),
+            Ask::Air => (
                 "Speed from which on a straight motion is in air, mm/s".into(),
                 "A robot's program does not say which motions cut. Joint motions never do.".into(),
                 None,
             ),
-            Self::Tolerance => ("Tolerance of the path, mm".into(), "What the written program may leave, on top of nothing: the figures of the model have errors of their own.".into(), Some("0.05")),
+            Ask::Tolerance => ("Tolerance of the path, mm".into(), "What the written program may leave, on top of nothing: the figures of the model have errors of their own.".into(), Some("0.05")),
         };
-        Question { words, help, usual }
+        Self { words, help, usual }
     }
 }

@@ -10,7 +10,7 @@ use crate::files::file_kind::FileKind;
 use crate::files::file_names::stem;
 use crate::files::input_files::InputFiles;
 use crate::files::paths::seen_from;
-use crate::start::question::Ask;
+use crate::start::ask::Ask;
 use crate::start::reading::wrong;
 use crate::ui::failure::Answer;
 

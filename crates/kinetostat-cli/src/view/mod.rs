@@ -145,7 +145,7 @@ fn export(args: &ViewArgs, file: &Path, session: &Session, start: &StateRequest)
 
 #[cfg(feature = "view")]
 fn served(args: &ViewArgs, session: Session, start: &StateRequest) -> Answer<()> {
-    serve::serve(args, session, start)
+    serve::serve(args.port, !args.no_browser, session, start)
 }
 
 #[cfg(not(feature = "view"))]

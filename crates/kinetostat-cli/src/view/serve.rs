@@ -10,7 +10,6 @@ use crate::shown::session::Session;
 use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::host;
 use crate::ui::screen::{self, Stream};
-use crate::view::ViewArgs;
 
 impl From<ServeError> for Failure {
     fn from(error: ServeError) -> Self {
@@ -18,13 +17,18 @@ impl From<ServeError> for Failure {
     }
 }
 
-pub(super) fn serve(args: &ViewArgs, session: Session, start: &StateRequest) -> Answer<()> {
+pub(super) fn serve(
+    port: Option<usize>,
+    opens_browser: bool,
+    session: Session,
+    start: &StateRequest,
+) -> Answer<()> {
     if host::current().is_some() {
         return Err(ErrorCode::NotBuiltIn.failure(
             "view serves its page from the command line only: kinetostat view; or write it as a file (export)",
         ));
     }
-    let port = u16::try_from(args.port.unwrap_or(0))
+    let port = u16::try_from(port.unwrap_or(0))
         .map_err(|_| ErrorCode::Value.failure("--port: 0 to 65535"))?;
     let server = Server::listen(port)?;
     let state = serde_json::to_string(start).unwrap_or_default();
@@ -36,7 +40,7 @@ pub(super) fn serve(args: &ViewArgs, session: Session, start: &StateRequest) -> 
             session.named
         ),
     )?;
-    if !args.no_browser && open::that_detached(&url).is_err() {
+    if opens_browser && open::that_detached(&url).is_err() {
         screen::print(
             Stream::Err,
             "no browser could be opened: open the address above in one\n",

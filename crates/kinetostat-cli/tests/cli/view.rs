@@ -166,6 +166,54 @@ fn modes_are_those_of_the_command() {
 }
 
 #[test]
+fn a_load_that_grows_is_that_of_the_command() {
+    let here = here();
+    let served = Served::of(here.path(), &["orthoglide"]);
+    let state = json!({ "force_n": [100, 50, -2000] });
+    let (code, found) = served.post("curve", &json!({ "state": state, "factor": 10 }));
+    assert_eq!(code, 200, "{found}");
+    let line = "curve orthoglide --force 100 50 -2000 --factor 0 10 --json";
+    let said = run(here.path(), &line.split(' ').collect::<Vec<_>>()).answered();
+    let said: Value = serde_json::from_str(&said.out).expect("JSON");
+    assert_eq!(
+        found["branches"].as_array().map(Vec::len),
+        said["branches"].as_array().map(Vec::len)
+    );
+    let number = |v: &Value| v.as_f64().expect("a number");
+    let last = |v: &Value| {
+        v.as_array()
+            .and_then(|all| all.last().cloned())
+            .expect("a point")
+    };
+    let (own, wanted) = (
+        last(&found["branches"][0]["places"]),
+        last(&said["branches"][0]["points"]),
+    );
+    assert_eq!(number(&own["factor"]), 10.0);
+    let apart = number(&own["along"]) - number(&wanted["displacement_mm"]);
+    assert!(apart.abs() < 1e-9, "{own} {wanted}");
+    assert_eq!(own["stable"], wanted["stable_under_dead_load"]);
+    assert!(own["shape"]["bars"].is_array());
+    // Without a load there is nothing to grow, and a machine that nothing holds goes anywhere.
+    for (model, state, code) in [
+        ("orthoglide", json!({}), "missing"),
+        (
+            "three_link_z",
+            json!({ "force_n": [-1, 0, 0] }),
+            "model_unsuited",
+        ),
+    ] {
+        let served = Served::of(here.path(), &[model]);
+        let (status, refused) = served.post("curve", &json!({ "state": state, "factor": 10 }));
+        assert_eq!(
+            (status, &refused["error"]["code"]),
+            (422, &json!(code)),
+            "{refused}"
+        );
+    }
+}
+
+#[test]
 fn absurd_questions_are_answered_in_words() {
     let here = here();
     let served = Served::of(here.path(), &["orthoglide"]);

@@ -1,6 +1,6 @@
 //! The cells of a continuous quantity, divided so that its colours change along smooth lines.
 
-use crate::chart::section::{Cell, Section};
+use crate::chart::cell::Cell;
 use crate::number;
 
 /// Cells of an interpolated section along an axis, about.
@@ -15,11 +15,10 @@ pub(crate) struct Fine {
 
 impl Fine {
     /// Bilinear between four places with values; beside a place without one, and beyond the outermost, the nearest cell.
-    pub(crate) fn of(section: &Section) -> Self {
-        let (nx, ny) = (section.x.len(), section.y.len());
+    pub(crate) fn of([nx, ny]: [usize; 2], own: &[Cell]) -> Self {
         let parts = |count: usize| (FINE / count.max(1)).max(1);
         let (px, py) = (parts(nx), parts(ny));
-        let cell = |i: usize, j: usize| section.cells.get(j * nx + i).copied();
+        let cell = |i: usize, j: usize| own.get(j * nx + i).copied();
         let value = |i: usize, j: usize| match cell(i, j) {
             Some(Cell::Value(x)) => number::drawable(x),
             _ => None,
@@ -61,12 +60,7 @@ mod tests {
     use super::*;
 
     fn fine(cells: &[Cell]) -> Fine {
-        Fine::of(&Section {
-            x: vec![0.0, 1.0],
-            y: vec![0.0, 1.0],
-            cells: cells.to_vec(),
-            ..Section::default()
-        })
+        Fine::of([2, 2], cells)
     }
 
     #[test]

@@ -5,6 +5,7 @@
 pub(crate) mod area;
 pub(crate) mod bands;
 pub(crate) mod bars;
+pub(crate) mod cell;
 pub(crate) mod fine;
 pub(crate) mod label;
 pub(crate) mod outline;

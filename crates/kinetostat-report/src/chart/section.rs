@@ -5,6 +5,7 @@
 use std::fmt::Write as _;
 
 use crate::chart::bands::{BAR, Bands};
+use crate::chart::cell::Cell;
 use crate::chart::fine::Fine;
 use crate::chart::label::{Frame, Names, TEXT_SIZE, title_lines, widest};
 use crate::chart::outline::{first_time, path_data};
@@ -74,17 +75,6 @@ enum Shape {
     True,
     /// Units with which both axes fill the picture.
     Filled,
-}
-
-/// Content of a cell.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cell {
-    /// A value; one that is not finite is left blank.
-    Value(f64),
-    /// No value, for a reason: its number in [`Section::others`].
-    Other(usize),
-    /// A shade of grey, from 0 (dark) to 1 (light): what is there and is not in question.
-    Grey(f64),
 }
 
 impl Section {
@@ -301,7 +291,9 @@ impl Section {
 
     /// One path for all cells of a class, runs along the horizontal axis as one rectangle each.
     fn fill(&self, svg: &mut Svg, bands: &Bands, frame: &Frame) {
-        let fine = self.interpolated.then(|| Fine::of(self));
+        let fine = self
+            .interpolated
+            .then(|| Fine::of([self.x.len(), self.y.len()], &self.cells));
         let (columns, rows, own) = match &fine {
             Some(fine) => (fine.columns, fine.rows, fine.cells.as_slice()),
             None => (self.x.len(), self.y.len(), self.cells.as_slice()),

@@ -8,7 +8,7 @@ pub(crate) mod block;
 mod content;
 pub(crate) mod document;
 pub(crate) mod language;
-pub(crate) mod page;
+mod page;
 pub(crate) mod question;
 #[cfg(test)]
 mod tests;

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use crate::paper::block::{Block, Cell, Contents, Side, Table};
 use crate::run::meaning::class;
+use crate::svg::picture_address;
 use crate::text::escape;
 
 const STYLE: &str = "body{font:15px/1.45 'Noto Sans','Segoe UI',Arial,sans-serif;max-width:52em;margin:2em auto;padding:0 1em;color:#111;background:#fff}\
@@ -106,20 +107,6 @@ fn block(out: &mut String, block: &Block) {
             writeln!(out, "{}", lines.collect::<String>())
         }
     };
-}
-
-/// A drawing within an attribute: an image has a style sheet of its own, which does not reach the page.
-pub(crate) fn picture_address(svg: &str) -> String {
-    let mut out = "data:image/svg+xml,".to_owned();
-    for letter in svg.chars() {
-        match letter {
-            '%' | '#' | '"' | '<' | '>' | '&' | '\n' => {
-                let _ = write!(out, "%{:02X}", u32::from(letter));
-            }
-            other => out.push(other),
-        }
-    }
-    out
 }
 
 fn each(texts: &[String], element: &str) -> String {

@@ -6,8 +6,8 @@ use minijinja::{Environment, Value, context};
 use crate::chart::panel::Sheet;
 use crate::chart::section::Section;
 use crate::number::{self, MISSING, typeset};
-use crate::paper::page::picture_address;
 use crate::run::{Shown, along, chatter, cutting, facts, joints, meaning, plan};
+use crate::svg::picture_address;
 use crate::{text, turns};
 
 /// The name ends in `.html`, which switches automatic escaping on.

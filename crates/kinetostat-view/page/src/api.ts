@@ -108,6 +108,21 @@ export interface Modes {
   modes: { frequency_hz: number; words: string; moved: Scene }[];
 }
 
+/** An equilibrium while the load grows. */
+export interface CurvePlace {
+  factor: number;
+  along: number;
+  stable: boolean;
+  shape: Scene;
+}
+
+export interface Curve {
+  unit: "mm" | "deg";
+  branches: { places: CurvePlace[] }[];
+  marks: { words: string; factor: number; along: number }[];
+  more_branches: boolean;
+}
+
 export interface Exported {
   /** Further states come from the page around this one. */
   live?: boolean;
@@ -127,6 +142,8 @@ export interface Source {
   state(request: StateRequest): Promise<State>;
   /** Vibrations about a state; the lowest first. */
   modes(request: StateRequest): Promise<Modes>;
+  /** Equilibria while the load of a state grows to a factor of it. */
+  curve(request: StateRequest, factor: number): Promise<Curve>;
   /** Places of the path of which there are states; null: of all. */
   readonly stored: number[] | null;
 }
@@ -161,7 +178,11 @@ class Server implements Source {
     return this.post("api/modes", request);
   }
 
-  private async post<T>(route: string, request: StateRequest): Promise<T> {
+  async curve(state: StateRequest, factor: number): Promise<Curve> {
+    return this.post("api/curve", { state, factor });
+  }
+
+  private async post<T>(route: string, request: object): Promise<T> {
     const headers = { "content-type": "application/json" };
     return json(await fetch(route, { method: "POST", headers, body: JSON.stringify(request) }));
   }
@@ -190,6 +211,10 @@ class File implements Source {
 
   async modes(): Promise<Modes> {
     throw new Error("This file holds no vibrations.");
+  }
+
+  async curve(): Promise<Curve> {
+    throw new Error("This file holds no curves.");
   }
 }
 
@@ -231,7 +256,11 @@ class Around implements Source {
     return this.ask("modes", request);
   }
 
-  private ask<T>(kind: "state" | "modes", request: StateRequest): Promise<T> {
+  async curve(state: StateRequest, factor: number): Promise<Curve> {
+    return this.ask("curve", { state, factor });
+  }
+
+  private ask<T>(kind: "state" | "modes" | "curve", request: object): Promise<T> {
     const id = (this.asked += 1);
     window.parent.postMessage({ kinetostat: kind, id, request }, "*");
     return new Promise((resolve, reject) => this.waiting.set(id, { resolve: resolve as (answer: never) => void, reject }));

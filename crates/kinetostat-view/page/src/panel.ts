@@ -4,6 +4,7 @@ import { hasAddress } from "./address";
 import type { State, Vec3 } from "./api";
 import { limbValues } from "./byvalue";
 import { byShare } from "./colour";
+import { CurveView } from "./curve";
 import { picture } from "./picture";
 import type { Stage } from "./stage";
 import { scaleOf, shown, type Colours, type Store } from "./store";
@@ -81,6 +82,7 @@ class VectorInput {
 export class Panel {
   private readonly finding = element("p", { class: "finding", role: "alert" });
   private readonly sliders: { range: HTMLInputElement; typed: HTMLInputElement }[];
+  private readonly curve: CurveView;
   private readonly tool: VectorInput;
   private readonly force: VectorInput;
   private readonly moment: VectorInput;
@@ -99,6 +101,7 @@ export class Panel {
   ) {
     const { machine, source } = store;
     const live = source.live;
+    this.curve = new CurveView(store);
     this.sliders = machine.actuators.map((actuator, i) => {
       const far = actuator.unit === "deg" ? 180 : machine.size_mm;
       const [low, high] = [actuator.low ?? actuator.home - far, actuator.high ?? actuator.home + far];
@@ -135,6 +138,7 @@ export class Panel {
       this.drawing(),
       section("Figures", this.nearby, this.figures),
       section("What bends", this.shares),
+      ...(live ? [this.curve.section] : []),
       element("div", { class: "row" }, ...(hasAddress() ? [this.copy("Copy link", () => store.link())] : []), this.copy("Copy command", () => store.state?.cli ?? ""), this.copy("Copy Python", () => store.state?.python ?? ""), this.picture(), this.said),
       element("p", { class: "unit" }, `kinetostat ${machine.version}`),
     );
@@ -234,6 +238,7 @@ export class Panel {
     }
     this.showShares(state);
     this.showLegend();
+    this.curve.show();
   }
 
   private showShares(state: State): void {

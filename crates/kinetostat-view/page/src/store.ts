@@ -41,6 +41,8 @@ export class Store {
   /** Vibrations about the state; none until they are asked for. */
   modes: Modes | null = null;
   error: string | null = null;
+  /** The machine at a place of a curve, drawn as it is; none: as it bends under its load. */
+  private shape: Scene | null = null;
   private readonly listeners: (() => void)[] = [];
   private asking = false;
   private waiting = false;
@@ -75,6 +77,16 @@ export class Store {
     void this.ask();
   }
 
+  showShape(shape: Scene | null): void {
+    this.shape = shape;
+    this.changed();
+  }
+
+  /** True while a shape is shown in its own size. */
+  hasShape(): boolean {
+    return this.shape !== null && !this.look.swing;
+  }
+
   draw(look: Partial<Look>): void {
     this.look = { ...this.look, ...look };
     if (this.look.swing && this.modes === null) {
@@ -90,6 +102,9 @@ export class Store {
       return { from: this.modes.from, to: mode.moved };
     }
     const { state } = this;
+    if (state !== null && this.shape !== null) {
+      return { from: state.scene, to: this.shape };
+    }
     return state?.deflected ? { from: state.scene, to: state.deflected } : null;
   }
 
@@ -104,6 +119,7 @@ export class Store {
       this.waiting = false;
       try {
         this.state = await this.source.state(this.request);
+        this.shape = null;
         this.modes = this.look.swing ? await this.source.modes(this.request) : null;
         this.error = null;
       } catch (error) {
@@ -177,6 +193,9 @@ export function shown(x: number): string {
 export function scaleOf(store: Store): number {
   const { look, machine } = store;
   const motion = store.motion();
+  if (store.hasShape()) {
+    return 1;
+  }
   // A mode has no size of its own.
   if (motion === null || (look.scale > 0 && !look.swing)) {
     return look.scale > 0 ? look.scale : 1;

@@ -360,6 +360,30 @@ test("a page in a frame of a report works, with its panel closed at first", asyn
   assert.deepEqual(page.wrong, []);
 });
 
+test("a load grows along a curve, and its places have shapes", async () => {
+  const url = await served("orthoglide", "--force", "0", "0", "-2000");
+  const page = await opened(`${url}#state=${encodeURIComponent(JSON.stringify({ force_n: [100, 50, -2000] }))}`);
+  await page.getByLabel("Largest factor of the load").fill("60");
+  await page.getByRole("button", { name: "Follow" }).press("Enter");
+  const curve = page.locator(".curve svg");
+  await curve.waitFor();
+  const said = JSON.parse(spawnSync(command, ["curve", "orthoglide", "--force", "100", "50", "-2000", "--factor", "0", "60", "--branches", "4", "--json"], { encoding: "utf8" }).stdout);
+  assert.equal(await page.locator(".curve .mark").count(), said.named_points.filter((own) => !["start", "end"].includes(own.kind)).length);
+  assert.ok((await page.locator(".curve .unstable").count()) > 0);
+  const before = await page.locator("#stage").screenshot();
+  await page.getByLabel("Place on the curve").fill("20");
+  await page.getByText("drawn as large as it is").waitFor();
+  assert.notDeepEqual(await page.locator("#stage").screenshot(), before);
+  await curve.click({ position: { x: 60, y: 150 } });
+  await curve.scrollIntoViewIfNeeded();
+  await page.screenshot({ path: join(shots, "curve.png") });
+  // Another load has another curve.
+  await page.getByLabel("Force z, N", { exact: true }).fill("-100");
+  await page.getByLabel("Force z, N", { exact: true }).press("Enter");
+  await curve.waitFor({ state: "detached" });
+  assert.deepEqual(page.wrong, []);
+});
+
 test("a live page in a frame is answered by the page around it", async () => {
   const file = join(folder, "alone.html");
   assert.equal(spawnSync(command, ["view", "orthoglide", "--force", "100", "50", "0", "--export", file]).status, 0);

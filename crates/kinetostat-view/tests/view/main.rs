@@ -28,6 +28,10 @@ impl Answers for Echo {
         self.state(request)
     }
 
+    fn curve(&self, request: &[u8]) -> Result<String, Refused> {
+        self.state(request)
+    }
+
     fn path(&self) -> Option<String> {
         None
     }
