@@ -180,7 +180,7 @@ export class Stage {
     this.labels.set(this.words(state));
     const factor = scaleOf(this.store);
     const mode = look.swing ? this.store.modes?.modes[look.swing - 1] : undefined;
-    const bent = mode ? `Mode ${look.swing}, ${mode.words}; its size is free. ` : state.deflected === null ? "" : `Deflection drawn ${shown(factor)} times larger. `;
+    const bent = mode ? `Mode ${look.swing}, ${mode.words}; its size is free. ` : state.deflected === null ? "" : this.store.hasShape() ? "Drawn as large as it is. " : `Deflection drawn ${shown(factor)} times larger. `;
     this.isOld = true;
     this.note.textContent = `${bent}Squares of ${shown(step(this.box()))} mm.`;
   }
