@@ -233,8 +233,8 @@ impl Plot {
                 && over.points.len() == line.points.len()
                 && pairs().all(|(a, b)| a.0.total_cmp(&b.0).is_eq() && near(a.1, b.1))
         };
-        let all = self.lines.iter().enumerate();
-        all.filter(covers).next_back().map(|(_, over)| over)
+        let mut all = self.lines.iter().enumerate();
+        all.rfind(covers).map(|(_, over)| over)
     }
 
     /// Title and legend; returns the height that they take. `height` is that of the frame in the unit of the vertical axis.
