@@ -99,6 +99,7 @@ class View:
         except ImportError as absent:
             raise ImportError("live views need anywidget: pip install 'kinetostat[view]'") from absent
         native = self._native
+        questions = {"state": native.state, "modes": native.modes, "curve": native.curve}
 
         class LiveView(anywidget.AnyWidget):  # type: ignore[misc,unused-ignore]
             _esm = _AROUND
@@ -107,7 +108,7 @@ class View:
 
         def answer(widget: Any, message: Any, buffers: Any) -> None:
             number = message.get("id") if isinstance(message, dict) else None
-            asked = {"state": native.state, "modes": native.modes, "curve": native.curve}.get(message.get("kinetostat")) if number is not None else None
+            asked = questions.get(message.get("kinetostat")) if number is not None else None
             if asked is None:
                 return
             try:
