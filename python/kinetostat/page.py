@@ -101,10 +101,8 @@ class View:
         native = self._native
         questions = {"state": native.state, "modes": native.modes, "curve": native.curve}
 
-        class LiveView(anywidget.AnyWidget):  # type: ignore[misc,unused-ignore]
-            _esm = _AROUND
-            page = traitlets.Unicode().tag(sync=True)
-            height = traitlets.Int(640).tag(sync=True)
+        parts = {"_esm": _AROUND, "page": traitlets.Unicode().tag(sync=True), "height": traitlets.Int(640).tag(sync=True)}
+        widget_of_page = type("LiveView", (anywidget.AnyWidget,), parts)
 
         def answer(widget: Any, message: Any, buffers: Any) -> None:
             number = message.get("id") if isinstance(message, dict) else None
@@ -116,7 +114,7 @@ class View:
             except KinetostatError as refused:
                 widget.send({"id": number, "error": str(refused)})
 
-        found = LiveView(page=native.page(self._request, True), height=pixels)
+        found: Any = widget_of_page(page=native.page(self._request, True), height=pixels)
         found.on_msg(answer)
         return found
 

@@ -372,7 +372,7 @@ test("a load grows along a curve, and its places have shapes", async () => {
   assert.ok((await page.locator(".curve .unstable").count()) > 0);
   const before = await page.locator("#stage").screenshot();
   await page.getByLabel("Place on the curve").fill("20");
-  await page.getByText("drawn as large as it is").waitFor();
+  await page.locator(".curve").getByText("drawn as large as it is").waitFor();
   assert.notDeepEqual(await page.locator("#stage").screenshot(), before);
   await curve.click({ position: { x: 60, y: 150 } });
   await curve.scrollIntoViewIfNeeded();
