@@ -91,6 +91,12 @@ class View:
         ------
         ImportError
             anywidget is not installed.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> ks.Machine.preset("orthoglide").view().live(height=400).height
+        400
         """
         pixels = whole_number("height", height, 100, 10_000)
         try:

@@ -83,6 +83,7 @@ def arguments(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any
         "kinetostat.Machine.map": (MACHINE.map, {"x": [0.0, 0.01], "loads": wrench}),
         "kinetostat.Machine.compensate": (MACHINE.compensate, written),
         "kinetostat.Machine.drawing": (MACHINE.drawing, {"posture": POSTURE}),
+        "kinetostat.Machine.view": (MACHINE.view, {"posture": POSTURE, "force": [1, 0, 0], "moment": [0, 1, 0]}),
         "kinetostat.Machine.to_pyvista": (MACHINE.to_pyvista, {"posture": POSTURE}),
         "kinetostat.Posture.to_pyvista": (POSTURE.to_pyvista, {"axes": 0.1}),
         "kinetostat.Posture.deflected_by": (POSTURE.deflected_by, {"wrench": wrench}),
@@ -220,6 +221,9 @@ def arguments(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any
         ),
         "kinetostat.tolerance.triangular": (tolerance.triangular, {"half_width": 1.0}),
         "kinetostat.tolerance.uniform": (tolerance.uniform, {"half_width": 1.0}),
+        "kinetostat.page.View": (ks.page.View, {"posture": POSTURE, "wrench": [1, 0, 0, 0, 0, 0]}),
+        "kinetostat.page.View.live": (MACHINE.view().live, {"height": 400}),
+        "kinetostat.page.View.save": (MACHINE.view().save, {"path": folder / "page.html"}),
         "kinetostat.view.to_pyvista": (ks.view.to_pyvista, {"posture": POSTURE}),
         "kinetostat.commands.run": (commands.run, {"words": ["model", "list"]}),
     }
