@@ -131,15 +131,26 @@ pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
     }
 }
 
-/// Ends of a job's program that the machine does not reach, in words.
-pub(crate) fn unreached(files: &InputFiles, path: &Path) -> Answer<Vec<String>> {
+/// A job that is not written yet.
+pub(crate) struct AsFarAsKnown {
+    /// Ends of its program that the machine does not reach, in words.
+    pub(crate) unreached: Vec<String>,
+    /// Its outputs that exist.
+    pub(crate) existing: Vec<String>,
+}
+
+pub(crate) fn as_far_as_known(files: &InputFiles, path: &Path) -> Answer<AsFarAsKnown> {
     let found = findings(files, path, &ProgramArgs::default())?;
     let ends = found.ends.into_iter().filter(|end| !end.reached);
     let words = ends.map(|end| {
         let why = end.problem.unwrap_or_default();
         format!("{} of the program, line {}: {why}", end.end, end.line)
     });
-    Ok(words.collect())
+    let outputs = found.outputs.into_iter().filter(|output| output.exists);
+    Ok(AsFarAsKnown {
+        unreached: words.collect(),
+        existing: outputs.map(|output| output.path).collect(),
+    })
 }
 
 fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobFindings> {

@@ -91,8 +91,12 @@ impl Standing {
         let point = points.find(|p| p.move_index == place.move_index && p.share == place.share)?;
         let limbs = of_run.limbs().iter();
         let drives = limbs.flat_map(|limb| limb.nominal.actuators());
-        let commands: Vec<f64> = (drives.zip(&point.actuator_command))
-            .map(|(drive, shown)| shown / unit_of(drive.kind))
+        // A written program commands other joints by its correction.
+        let corrections = point.actuator_correction.iter().copied();
+        let corrections = corrections.chain(std::iter::repeat(0.0));
+        let shown = point.actuator_command.iter().zip(corrections);
+        let commands: Vec<f64> = (drives.zip(shown))
+            .map(|(drive, (written, correction))| (written - correction) / unit_of(drive.kind))
             .collect();
         let request = PostureRequest::commands(&commands);
         let posture = mechanism.posture(request).ok()?;

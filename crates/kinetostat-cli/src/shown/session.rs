@@ -150,7 +150,11 @@ impl Session {
         let mut answer = state_of(&posture, &wrench, &self.named);
         if self.program.is_some() {
             // The tool of a job has more words than the options of a single place.
-            answer.cli = format!("kinetostat deflect {}", self.named);
+            let (_, state) = answer.cli.split_once(" --joints").unwrap_or_default();
+            answer.cli = match request.place {
+                Some(_) => format!("kinetostat deflect {}", self.named),
+                None => format!("kinetostat view {} --joints{state}", self.named),
+            };
         }
         Ok(answer)
     }

@@ -90,11 +90,21 @@ impl Answers {
                 Ask::Speed,
                 material && !program.has_spindle && self.rpm.is_none(),
             ),
-            (Ask::Air, is_robot && self.air_mm_per_s.is_none()),
+            (
+                Ask::Air,
+                program.hides_rapids() && self.air_mm_per_s.is_none(),
+            ),
             (Ask::Tolerance, self.tolerance_um.is_none()),
         ];
         let mut open = questions.into_iter().filter(|(_, is_open)| *is_open);
         open.next().map(|(ask, _)| ask)
+    }
+
+    /// True if the job can be looked at: tools and part are known, and a cut is stated as a whole.
+    pub(super) fn can_be_checked(&self) -> bool {
+        let last = [Ask::Weight, Ask::Air, Ask::Tolerance];
+        self.next()
+            .is_none_or(|open| open == Ask::Cut || last.contains(&open))
     }
 
     /// Takes an answer, if it is one; what was understood, where that is worth a line.
@@ -129,14 +139,17 @@ impl Answers {
                 }
             }
             Ask::JointStiffness => {
-                self.robot = self
+                let made = self
                     .urdf
                     .as_ref()
                     .map(|urdf| urdf.robot(text))
-                    .transpose()?
+                    .transpose()?;
+                let (robot, remarks) = made.unzip();
+                self.robot = robot;
+                return Ok(remarks.filter(|remarks| !remarks.is_empty()));
             }
             Ask::Program => {
-                let facts = Facts::of(Path::new(text))?;
+                let facts = Facts::of(Path::new(text), self.robot.as_ref().map(|own| &own.model))?;
                 let said = facts.words();
                 self.program = Some(facts);
                 return Ok(Some(said));
@@ -198,7 +211,16 @@ impl Answers {
                 self.weight = Some(one_of(text, &words)?);
             }
             Ask::TouchOff => self.touch_off_mm = Some(numbers(text)?),
-            Ask::Cut => self.cut = Some(cut(text)?),
+            Ask::Cut => {
+                let cut = cut(text)?;
+                let is_gcode = self.program.as_ref().is_some_and(|p| p.language.is_none());
+                if matches!(cut, Cut::Material(_)) && !is_gcode {
+                    return Err(wrong(
+                        "forces follow from the cut along G-code only: answer the force, or give the G-code from which this program was made",
+                    ));
+                }
+                self.cut = Some(cut);
+            }
             Ask::Cutter => {
                 let cutter @ [diameter, teeth, helix] = numbers(text)?;
                 let can_be = diameter > 0.0

@@ -116,6 +116,9 @@ fn job(answers: &Answers) -> String {
         out += &format!("\n[spindle]\nrpm = {rpm}\nrotation = \"clockwise\"\n");
     }
     out += &robot(answers, to);
+    if program.is_some_and(|program| program.expanded) {
+        out += "\n[expand]    # run once and written flat\n";
+    }
     if let Some(tolerance) = answers.tolerance_um {
         out += &format!("\n[tolerances]\npath_um = {tolerance}\n");
     }

@@ -3,10 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use kinetostat_formats::Language;
+use kinetostat_machining::Placement;
+use kinetostat_model::Model;
+use nalgebra::Vector3;
 
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::program::read_program;
+use crate::job::rotary::rotary;
 use crate::job::setting::setting;
 use crate::ui::failure::Answer;
 
@@ -16,6 +20,8 @@ pub(super) struct Facts {
     pub(super) path: PathBuf,
     /// None of G-code.
     pub(super) language: Option<Language>,
+    /// It is run once and written flat: subprograms, variables, cycles.
+    pub(super) expanded: bool,
     lines: usize,
     moves: usize,
     /// Names of tools that it uses and does not state.
@@ -27,18 +33,27 @@ pub(super) struct Facts {
 }
 
 impl Facts {
-    /// Reads a program.
-    pub(super) fn of(path: &Path) -> Answer<Self> {
-        let flags = ProgramArgs {
+    /// Reads a program, with the rotary axes of the machine; one that is no plain path is run once.
+    pub(super) fn of(path: &Path, model: Option<&Model>) -> Answer<Self> {
+        let plain = Self::read(path, model, false);
+        plain.or_else(|refused| Self::read(path, model, true).map_err(|_| refused))
+    }
+
+    fn read(path: &Path, model: Option<&Model>, expanded: bool) -> Answer<Self> {
+        let mut flags = ProgramArgs {
             program: Some(path.to_owned()),
             ..ProgramArgs::default()
         };
-        let setting = setting(
+        flags.expansion.expand = expanded;
+        let mut setting = setting(
             &InputFiles::default(),
             None,
             &flags,
             &WritingFlags::default(),
         )?;
+        if let Some(model) = model {
+            setting.turned_by(rotary(model, &Placement::at(Vector3::zeros())));
+        }
         let read = read_program(&setting)?;
         let motion = read.path();
         let frames = setting.robot_frames()?;
@@ -49,6 +64,7 @@ impl Facts {
             .and_then(|frames| frames.work_object.as_ref());
         Ok(Self {
             path: path.to_owned(),
+            expanded,
             language: setting.robot.as_ref().map(|robot| robot.language),
             lines: read.line_count(),
             moves: motion.moves.len(),
@@ -73,8 +89,22 @@ impl Facts {
         self.language.is_none() || self.work_object.is_some()
     }
 
+    /// True of a language that does not say which motions are in air.
+    pub(super) fn hides_rapids(&self) -> bool {
+        self.language
+            .is_some_and(|language| !language.is_in_blocks() && !language.is_list())
+    }
+
     pub(super) fn words(&self) -> String {
         let language = self.language.map_or("G-code", |language| language.name());
-        format!("{language}, {} lines, {} moves", self.lines, self.moves)
+        let flat = if self.expanded {
+            ", run once and written flat"
+        } else {
+            ""
+        };
+        format!(
+            "{language}, {} lines, {} moves{flat}",
+            self.lines, self.moves
+        )
     }
 }

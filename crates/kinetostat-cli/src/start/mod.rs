@@ -16,13 +16,12 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use kinetostat_diagnostic::ErrorCode;
 
-use crate::check::job::unreached;
+use crate::check::job::as_far_as_known;
 use crate::compensate::{self, arguments::CompensateArgs};
 use crate::files::made_folder::in_folder;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::options::EXIT_CODES;
 use crate::start::answers::Answers;
-use crate::start::ask::Ask;
 use crate::start::question::Question;
 use crate::start::reading::wrong;
 use crate::ui::failure::{Answer, Failing};
@@ -151,11 +150,11 @@ fn interview(answers: &mut Answers, existing: Existing) -> Answer<()> {
         let mut next = answers.clone();
         match next.take(ask, given).and_then(|said| {
             claimed(&next, existing)?;
-            checked(&next, ask).map(|()| said)
+            checked(&next, existing).map(|()| said)
         }) {
             Ok(said) => {
-                if let Some(said) = said {
-                    screen::print(Stream::Out, &wrapped(&said, 2))?;
+                for line in said.iter().flat_map(|said| said.lines()) {
+                    screen::print(Stream::Out, &wrapped(line, 2))?;
                 }
                 before.push(std::mem::replace(answers, next));
             }
@@ -167,14 +166,20 @@ fn interview(answers: &mut Answers, existing: Existing) -> Answer<()> {
     Ok(())
 }
 
-/// Looks whether the machine reaches the program, once it is known where the part lies. What else may be wrong the first run says,
-/// with the files there to be changed.
-fn checked(answers: &Answers, ask: Ask) -> Answer<()> {
-    if ask != Ask::Part {
+/// Looks at the job as far as it is known: its values, its outputs, and whether the machine reaches the program. What else may be
+/// wrong the first run says, with the files there to be changed.
+fn checked(answers: &Answers, existing: Existing) -> Answer<()> {
+    if !answers.can_be_checked() {
         return Ok(());
     }
     let job = answers.folder.join(draft::JOB);
-    match unreached(&draft::in_memory(answers), &job)?.as_slice() {
+    let found = as_far_as_known(&draft::in_memory(answers), &job)?;
+    if let (Existing::Refuse, Some(path)) = (existing, found.existing.first()) {
+        return Err(ErrorCode::Output.failure(format!(
+            "the result would be written to '{path}', which exists already: start with another --out, or with --force-overwrite"
+        )));
+    }
+    match found.unreached.as_slice() {
         [] => Ok(()),
         [first, rest @ ..] => Err(wrong(&match rest.len() {
             0 => first.clone(),

@@ -105,6 +105,11 @@ impl Question {
                 "The weight counts as zero there; what is corrected is how the sag changes from there.".into(),
                 Some("0 0 0"),
             ),
+            Ask::Cut if program.is_some_and(|p| p.language.is_some()) => (
+                "Cutting force in N: to the right of the feed, along it, along z; or none".into(),
+                "As in 300 -100 -50. `kinetostat force` computes it from material, tool and cut.".into(),
+                None,
+            ),
             Ask::Cut => {
                 let materials = Materials::library();
                 let names: Vec<&str> = materials.iter().map(|material| material.name.as_str()).collect();

@@ -112,6 +112,11 @@ pub(super) fn one_of<T: Clone>(text: &str, words: &[(&str, T)]) -> Answer<T> {
 }
 
 fn all_numbers(text: &str) -> Answer<Vec<f64>> {
+    // `1800,5 100,0 0,0` may be three numbers or six.
+    let inside = |word: &str| word.trim_matches(',').contains(',');
+    if text.split_whitespace().nth(1).is_some() && text.split_whitespace().any(inside) {
+        return Err(wrong("write decimals with a point, as in 1800.5 100 0"));
+    }
     let words = text
         .split([' ', ',', ';', '\t'])
         .filter(|word| !word.is_empty());
@@ -139,10 +144,10 @@ pub(super) fn above_zero(text: &str) -> Answer<f64> {
 }
 
 pub(super) fn cut(text: &str) -> Answer<Cut> {
-    if text == NONE {
+    if text.eq_ignore_ascii_case(NONE) {
         return Ok(Cut::None);
     }
-    if text.starts_with(|c: char| c.is_ascii_digit() || c == '-' || c == '.')
+    if text.starts_with(|c: char| c.is_ascii_digit() || "-+.".contains(c))
         && all_numbers(text).is_ok()
     {
         return Ok(Cut::Force(numbers(text)?));

@@ -81,8 +81,8 @@ impl Urdf {
         urdf.import(JointStiffness::Unknown).map(|_| urdf)
     }
 
-    /// The model with joints of one stiffness, N m/rad, or of those in a table.
-    pub(super) fn robot(&self, stiffness: &str) -> Answer<Robot> {
+    /// The model with joints of one stiffness, N m/rad, or of those in a table; and what its import had to remark.
+    pub(super) fn robot(&self, stiffness: &str) -> Answer<(Robot, String)> {
         let stiffness = match stiffness.parse::<f64>() {
             Ok(value) if value > 0.0 && value.is_finite() => JointStiffness::All(value),
             Ok(_) => return Err(wrong("a stiffness above 0 N m/rad is needed")),
@@ -94,11 +94,21 @@ impl Urdf {
         };
         let imported = self.import(stiffness)?;
         imported.model.require_stiffness()?;
-        Ok(Robot {
+        if !imported.rigid_drives.is_empty() {
+            return Err(wrong(&format!(
+                "the table has no stiffness of {}: they would count as rigid",
+                imported.rigid_drives.join(", ")
+            )));
+        }
+        let remarks = imported.notices.iter().chain(&imported.model.warnings);
+        let remarks = remarks.map(|n| format!("{} ({}; {})", n.message, n.path, n.help));
+        let remarks = remarks.collect::<Vec<_>>().join("\n");
+        let robot = Robot {
             model: imported.model,
             named: format!("{}.toml", stem(&self.file)),
             text: Some(imported.toml),
-        })
+        };
+        Ok((robot, remarks))
     }
 
     fn import(&self, stiffness: JointStiffness) -> Answer<Imported> {

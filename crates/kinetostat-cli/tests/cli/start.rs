@@ -162,6 +162,15 @@ fn a_urdf_becomes_a_model_with_the_stiffness_that_is_answered() {
         &["slide.urdf", "z", "5e5", "part.src"],
         &["--out", "cell"],
     );
+    let table = "name,value,unit\nother,1e6,N m/rad\n";
+    std::fs::write(here.join("stiff.csv"), table).expect("written");
+    let rigid = start(here, &["slide.urdf", "z", "stiff.csv"], &["--out", "cell"]);
+    assert_eq!(rigid.code, 1);
+    assert!(
+        rigid.err.contains("swing") || rigid.err.contains("other"),
+        "{}",
+        rigid.err
+    );
     // One joint holds a chain only about its axis, and the questions end here: what counts is that the program was asked for.
     assert!(
         said.out.contains("KRL, 12 lines, 4 moves"),
@@ -178,7 +187,7 @@ fn an_answer_that_cannot_be_writes_nothing() {
     let here = with_slot();
     let here = here.path();
     let before = contents(here);
-    let wrong: [(usize, &str, &str); 9] = [
+    let wrong: [(usize, &str, &str); 13] = [
         (0, "heavy_7r", "heavy_6r"),
         (1, "nowhere.src", "nowhere.src"),
         (2, "0 0", "X Y Z"),
@@ -186,8 +195,12 @@ fn an_answer_that_cannot_be_writes_nothing() {
         (3, "up", "none of"),
         (4, "-3", "mass"),
         (5, "9000 0 900", "reached"),
+        (5, "1800,5 100,0 0,0", "point"),
         (6, "perhaps", "touch-off"),
         (8, "cheese", "cheese"),
+        (8, "AlMg4.5Mn", "G-code"),
+        (10, "50000", "allowed"),
+        (10, "1e-9", "allowed"),
     ];
     for (at, answer, said_of) in wrong {
         let mut answers = ANSWERS;
@@ -221,4 +234,29 @@ fn one_goes_back_and_asks_for_more() {
         "{}",
         said.err
     );
+}
+
+#[test]
+fn a_program_that_is_run_once_is_written_flat() {
+    let here = workplace();
+    let here = here.path();
+    let program = "G21 G90 G17\n#1=20\nG0 X[#1] Y0 Z5\nG1 Z-1 F300\nG1 X0 Y20 F600\nG0 Z5\nM2\n";
+    std::fs::write(here.join("part.ngc"), program).expect("written");
+    let answers = [
+        "orthoglide",
+        "part.ngc",
+        "g-code",
+        "100",
+        "20 20 120",
+        "215 -10 -25",
+        "0.05",
+    ];
+    let said = start(here, &answers, &["--out", "cell"]);
+    assert!([0, 4].contains(&said.code), "{}{}", said.out, said.err);
+    assert!(
+        said.out.contains("run once and written flat"),
+        "{}",
+        said.out
+    );
+    run(here, &["check", "cell/job.toml"]).answered();
 }

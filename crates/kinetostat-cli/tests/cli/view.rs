@@ -336,6 +336,19 @@ fn an_exported_page_holds_machine_path_and_states() {
             .iter()
             .all(|s| s["state"]["deflected"]["bars"].is_array())
     );
+    // The machine stands where the program has the tool, not where the compensated one commands it.
+    for state in states {
+        let place = state["place"].as_u64().expect("an index") as usize;
+        let wanted = places[place]["position_mm"].as_array().expect("a list");
+        let scene = &state["state"]["scene"]["tool"]["position_mm"];
+        let last = state["state"]["scene"]["bars"]
+            .as_array()
+            .and_then(|bars| bars.last().cloned());
+        for k in 0..3 {
+            let apart = scene[k].as_f64().expect("mm") - wanted[k].as_f64().expect("mm");
+            assert!(apart.abs() < 1e-6, "place {place}: {apart} mm, {last:?}");
+        }
+    }
     assert!(
         data["path"]["text"]
             .as_str()
