@@ -40,6 +40,8 @@ pub struct Task<'a> {
     pub bounds: Bounds,
     /// About how many places [`crate::Run::places`] hands on; 0 where nobody asks for them.
     pub places: usize,
+    /// Each of them has the compliance of the tool's tip, which takes an equilibrium more.
+    pub compliances: bool,
 }
 
 impl<'a> Task<'a> {

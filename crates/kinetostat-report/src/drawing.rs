@@ -163,6 +163,19 @@ pub struct Moved {
     pub name: String,
 }
 
+impl Moved {
+    /// From a posture, springs at rest, to its equilibrium under a load.
+    #[must_use]
+    pub fn deflected(posture: &Posture, state: &MechanismState, magnified: Magnified) -> Self {
+        Self {
+            from: Placed::at(posture),
+            to: Placed::solved(posture, state),
+            magnified,
+            name: "deflected".to_owned(),
+        }
+    }
+}
+
 /// A drawing of a machine.
 #[derive(Clone, Debug)]
 pub struct Drawing<'m> {

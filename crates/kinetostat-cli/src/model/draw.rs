@@ -285,11 +285,7 @@ fn deflection(
         triple(turn.into(), |x| fixed(x, 4)),
         if e.stable() { "" } else { "; NOT STABLE" }
     );
-    let moved = Moved {
-        from: Placed::at(posture),
-        to: Placed::solved(posture, &e.state),
-        magnified: scale.map_or(Magnified::Round, Magnified::Times),
-        name: "deflected".to_owned(),
-    };
+    let magnified = scale.map_or(Magnified::Round, Magnified::Times);
+    let moved = Moved::deflected(posture, &e.state, magnified);
     Ok((moved, words))
 }

@@ -87,8 +87,7 @@ impl Standing {
         of_run: &Mechanism,
         mechanism: &Mechanism,
     ) -> Option<Self> {
-        let mut points = run.points.iter();
-        let point = points.find(|p| p.move_index == place.move_index && p.share == place.share)?;
+        let point = run.points.get(place.point)?;
         let limbs = of_run.limbs().iter();
         let drives = limbs.flat_map(|limb| limb.nominal.actuators());
         // A written program commands other joints by its correction.

@@ -101,7 +101,7 @@ fn share_out(writing: &mut WriteOptions, asked_mm: f64, rounding_mm: f64, path: 
     writing.tolerance_mm = larger(left_mm, SMALLEST_MM);
 }
 
-/// Places of a program that report and VTK show, about.
+/// Places of a program that its report shows, about.
 const SHOWN: usize = 400;
 
 /// Applies `work` to the task of a run over a program that was read.
@@ -198,11 +198,11 @@ pub(crate) fn with_task<R>(
                 widest_zone: read.robot().and_then(RobotRead::widest_zone),
                 ..machine.bounds.clone()
             },
-            places: match &setting.targets {
-                _ if setting.uncertain.is_some() => PLACES,
-                targets if targets.report.is_some() || targets.vtk.is_some() => SHOWN,
-                _ => 0,
+            places: match setting.uncertain.is_some() || setting.targets.vtk.is_some() {
+                true => PLACES,
+                false => 0,
             },
+            compliances: setting.targets.vtk.is_some(),
         })
     };
     Ok(read.with(made))
@@ -263,6 +263,13 @@ pub(crate) fn turned(
     let judging = judging.map_err(|failure| setting.within(failure))?;
     let (result, parts, found) =
         with_task(aim, machine, setting, &read, forces.as_ref(), |task| {
+            let task = &match task.places {
+                0 if setting.targets.report.is_some() => Task {
+                    places: SHOWN,
+                    ..task.clone()
+                },
+                _ => task.clone(),
+            };
             let result = in_threads(threads, || match aim {
                 Aim::Analyse => analyse(task, &progress),
                 Aim::Compensate => compensate_program(task, &progress),

@@ -148,7 +148,7 @@ pub(crate) struct CurveRequest {
 pub(crate) struct CurveOfState {
     /// Unit of `along`: `mm` along the force, `deg` about a moment without one.
     pub(crate) unit: &'static str,
-    /// That of the unloaded machine first.
+    /// The branch of the unloaded machine is the first.
     pub(crate) branches: Vec<CurveBranch>,
     pub(crate) marks: Vec<CurveMark>,
     /// There are more branches than these.
@@ -189,7 +189,7 @@ pub(crate) struct PathAnswer {
     pub(crate) places: Vec<PlaceOnPath>,
     pub(crate) tolerance_mm: f64,
     pub(crate) headline: Vec<String>,
-    /// What stands around the path.
+    /// Stock around the path.
     pub(crate) boxes: Vec<ShownBox>,
 }
 
@@ -224,7 +224,7 @@ pub(crate) struct PlaceOnPath {
 /// Content of a page without a server.
 #[derive(Serialize, JsonSchema)]
 pub(crate) struct Exported {
-    /// Further states come from the page around this one, by messages.
+    /// True if the page around this one answers for further states, by messages.
     pub(crate) live: bool,
     pub(crate) machine: MachineAnswer,
     pub(crate) state: StateAnswer,

@@ -1,6 +1,6 @@
 //! The machine of a run in its report: in three dimensions along the program, and on paper where the error is largest.
 
-use kinetostat::{Mechanism, PostureRequest};
+use kinetostat::Mechanism;
 use kinetostat_machining::Run;
 use kinetostat_model::Model;
 use kinetostat_report::{Drawing, Language, MachineShown, Magnified, Moved, Placed};
@@ -25,7 +25,7 @@ pub(crate) fn of_run(
         return Ok(None);
     }
     let mechanism = &machine.mechanism;
-    let path = ShownPath::of(setting, machine, run)?;
+    let path = ShownPath::of(setting, machine, run);
     let Some(&worst) = path.worst().first() else {
         return Ok(None);
     };
@@ -62,16 +62,10 @@ pub(crate) fn of_run(
 
 /// The machine at a place of its program, and over it, larger than it is, as it bends there.
 fn picture(mechanism: &Mechanism, place: &AtPlace) -> Answer<String> {
-    let moved = mechanism.with_tool(&place.standing.tip);
-    let posture = moved.posture(PostureRequest::commands(&place.standing.commands))?;
+    let posture = place.posture(mechanism)?;
     let loaded = posture.deflected_by(&place.wrench)?;
-    let mut drawing = Drawing::of(&moved, Placed::at(&posture));
-    drawing.moved = Some(Moved {
-        from: Placed::at(&posture),
-        to: Placed::solved(&posture, &loaded.state),
-        magnified: Magnified::Round,
-        name: "deflected".to_owned(),
-    });
+    let mut drawing = Drawing::of(posture.mechanism(), Placed::at(&posture));
+    drawing.moved = Some(Moved::deflected(&posture, &loaded.state, Magnified::Round));
     drawing.applied = Some(place.wrench);
     Ok(drawing.svg().0)
 }

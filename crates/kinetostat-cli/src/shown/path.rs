@@ -2,14 +2,12 @@
 
 use std::path::Path;
 
-use kinetostat::Wrench;
+use kinetostat::{Mechanism, Posture, PostureRequest, Wrench};
 use kinetostat_machining::{EngagementSource, Placement, ProgramPlace, Run};
 use kinetostat_model::Model;
-use kinetostat_program::{Move, MoveKind};
 use nalgebra::Vector3;
 
 use crate::job::machine::MachineSetup;
-use crate::job::program::read_program;
 use crate::job::setting::Setting;
 use crate::program::aim::Aim;
 use crate::program::places::{JobRun, Standing};
@@ -26,6 +24,14 @@ pub(crate) struct AtPlace {
     pub(crate) wrench: Wrench,
 }
 
+impl AtPlace {
+    /// The machine with the tool of the place, commanded as the program commands it.
+    pub(crate) fn posture(&self, mechanism: &Mechanism) -> Answer<Posture> {
+        let with_tool = mechanism.with_tool(&self.standing.tip);
+        Ok(with_tool.posture(PostureRequest::commands(&self.standing.commands))?)
+    }
+}
+
 /// A program with its places.
 pub(crate) struct ShownPath {
     pub(crate) answer: PathAnswer,
@@ -36,7 +42,7 @@ pub(crate) struct ShownPath {
 /// Reads a job, compensates its program without writing it, and keeps what is shown: model with the job's tool, and path.
 pub(crate) fn of_job(job: &Path) -> Answer<(Model, ShownPath)> {
     let of_job = JobRun::of(job, None, Aim::Compensate, PLACES)?;
-    let path = ShownPath::of(&of_job.setting, &of_job.machine, &of_job.run)?;
+    let path = ShownPath::of(&of_job.setting, &of_job.machine, &of_job.run);
     let mut model = of_job.model;
     model.mechanism = of_job.machine.mechanism;
     Ok((model, path))
@@ -44,22 +50,14 @@ pub(crate) fn of_job(job: &Path) -> Answer<(Model, ShownPath)> {
 
 impl ShownPath {
     /// The places of a run with a machine.
-    pub(crate) fn of(setting: &Setting, machine: &MachineSetup, run: &Run) -> Answer<Self> {
-        let read = read_program(setting)?;
-        let moves = &read.path().moves;
-        let begins = begins_s(moves);
+    pub(crate) fn of(setting: &Setting, machine: &MachineSetup, run: &Run) -> Self {
         let mechanism = &machine.mechanism;
         let shown = |place: &ProgramPlace| {
             let at = AtPlace {
                 standing: Standing::at(place, run, mechanism, mechanism)?,
                 wrench: place.wrench,
             };
-            let seconds = moves.get(place.move_index).and_then(Move::seconds);
-            let begin = begins.get(place.move_index).copied().flatten();
-            let time_s = begin
-                .zip(seconds)
-                .map(|(begin, own)| begin + place.share * own);
-            Some((at, place_on_path(place, time_s)))
+            Some((at, place_on_path(place)))
         };
         let (places, on_path): (Vec<_>, Vec<_>) = run.places.iter().filter_map(shown).unzip();
         let headline = summary::of_run(&run.result);
@@ -71,7 +69,7 @@ impl ShownPath {
             headline: headline.lines().map(str::to_owned).collect(),
             boxes: stock(machine).into_iter().collect(),
         };
-        Ok(Self { answer, places })
+        Self { answer, places }
     }
 
     /// The places with the largest errors before and after compensation.
@@ -84,19 +82,6 @@ impl ShownPath {
         let found = errors.into_iter().filter_map(most);
         found.map(|(place, _)| place).collect()
     }
-}
-
-/// Time at feed before each move, s; unknown behind one whose duration is not known.
-fn begins_s(moves: &[Move]) -> Vec<Option<f64>> {
-    let mut now = Some(0.0);
-    let begin = |own: &Move| {
-        let begin = now;
-        if own.kind == MoveKind::Feed {
-            now = now.zip(own.seconds()).map(|(now, own)| now + own);
-        }
-        begin
-    };
-    moves.iter().map(begin).collect()
 }
 
 /// The stock before the cut, as the box around it.
@@ -120,11 +105,11 @@ fn stock(machine: &MachineSetup) -> Option<ShownBox> {
     })
 }
 
-fn place_on_path(place: &ProgramPlace, time_s: Option<f64>) -> PlaceOnPath {
+fn place_on_path(place: &ProgramPlace) -> PlaceOnPath {
     PlaceOnPath {
         line: place.line,
         path_mm: place.path_mm,
-        time_s,
+        time_s: place.time_s,
         position_mm: (place.programmed.translation.vector * 1e3).into(),
         force_n: place.wrench.force().into(),
         error_before_mm: place.error_before_mm,

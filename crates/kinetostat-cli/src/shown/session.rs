@@ -130,9 +130,7 @@ impl Session {
                 .and_then(|program| program.places.get(index));
             let place = place
                 .ok_or_else(|| ErrorCode::Value.failure(format!("there is no place {index}")))?;
-            let moved = mechanism.with_tool(&place.standing.tip);
-            let request = PostureRequest::commands(&place.standing.commands);
-            (moved.posture(request)?, place.wrench)
+            (place.posture(mechanism)?, place.wrench)
         } else {
             let commands = match &request.actuators {
                 Some(values) => commands(mechanism, values)?,
@@ -159,7 +157,7 @@ impl Session {
         Ok(answer)
     }
 
-    /// What a page without a server holds, at a state: of a path some states, those at its largest errors among them.
+    /// Results in a page without a server, at a state: of a path some states, those at its largest errors among them.
     fn exported(&self, request: &StateRequest, live: bool) -> Answer<Exported> {
         let places = self
             .program

@@ -172,6 +172,10 @@ pub struct ProgramPlace {
     pub move_index: usize,
     /// Share of that move, 0 to 1.
     pub share: f64,
+    /// Index of its point among those of the run.
+    pub point: usize,
+    /// Time at feed from the beginning of the program up to here, s; `None` behind a feed whose speed is not known.
+    pub time_s: Option<f64>,
     /// Number of its tool; `None` if the run has one tool for all blocks.
     pub tool: Option<u32>,
     /// Commanded pose of the program as it is: base from tool, m.
@@ -192,6 +196,7 @@ pub struct ProgramPlace {
     /// Metres in the machine per millimetre of the program.
     pub metres_per_mm: f64,
     /// Compliance of the tool's tip about the equilibrium there while the tool may turn as it likes, program axes, um/N of the
-    /// machine: row by row, the symmetric part. `None` if nothing holds the tool, or the machine has no equilibrium.
+    /// machine: row by row, the symmetric part. `None` if it was not asked for, nothing holds the tool, or the machine has no
+    /// equilibrium.
     pub compliance_um_per_n: Option<[[f64; 3]; 3]>,
 }

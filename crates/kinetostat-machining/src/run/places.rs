@@ -1,6 +1,7 @@
 //! Some places of a run, with all that is needed to solve other machines there.
 
 use kinetostat::Wrench;
+use kinetostat_program::{Move, MoveKind};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::load::along_path::LoadAlongPath;
@@ -30,19 +31,45 @@ pub(crate) fn places<S: Iterator<Item = Site>>(
     }
     let wanted = |(i, _): &(usize, Site)| chosen.get(*i) == Some(&true);
     let chosen: Vec<(usize, Site)> = sites().enumerate().filter(wanted).collect();
-    let machines = Machines::new(task);
-    let compliances = in_chunks(&chosen, |memory, some| {
-        let of = |(_, site): &(usize, Site)| {
-            compliance(task, &machines, &mut memory[0], site, how.course)
-        };
-        some.iter().map(of).collect()
-    });
-    let all = chosen.iter().zip(compliances);
-    all.map(|((i, site), compliance)| ProgramPlace {
-        compliance_um_per_n: compliance,
+    let begins = begins_s(&task.path().moves);
+    let all = chosen.iter().map(|(i, site)| ProgramPlace {
+        point: *i,
+        time_s: time_s(task, site, &begins),
         ..place(task, site, &points[*i], how)
-    })
-    .collect()
+    });
+    let mut all: Vec<ProgramPlace> = all.collect();
+    if task.compliances {
+        let machines = Machines::new(task);
+        let compliances = in_chunks(&chosen, |memory, some| {
+            let of = |(_, site): &(usize, Site)| {
+                compliance(task, &machines, &mut memory[0], site, how.course)
+            };
+            some.iter().map(of).collect()
+        });
+        for (place, compliance) in all.iter_mut().zip(compliances) {
+            place.compliance_um_per_n = compliance;
+        }
+    }
+    all
+}
+
+/// Time at feed before each move, s; unknown behind one whose duration is not known.
+fn begins_s(moves: &[Move]) -> Vec<Option<f64>> {
+    let mut now = Some(0.0);
+    let begin = |own: &Move| {
+        let begin = now;
+        if own.kind == MoveKind::Feed {
+            now = now.zip(own.seconds()).map(|(now, own)| now + own);
+        }
+        begin
+    };
+    moves.iter().map(begin).collect()
+}
+
+fn time_s(task: &Task<'_>, site: &Site, begins: &[Option<f64>]) -> Option<f64> {
+    let begin = (*begins.get(site.move_index)?)?;
+    let own = task.path().moves.get(site.move_index)?.seconds()?;
+    Some(begin + site.share * own)
 }
 
 /// The force block of the tool's tangent compliance about the loaded equilibrium [R 5.1.2], turned into the axes of the program.
@@ -91,6 +118,8 @@ fn place(task: &Task<'_>, site: &Site, point: &PointResult, how: Solving<'_>) ->
         path_mm: site.path_mm,
         move_index: site.move_index,
         share: site.share,
+        point: 0,
+        time_s: None,
         tool: tool_on(task.tools, task.path(), site.line).map(|tool| tool.number),
         programmed: programmed.pose(),
         wanted: programmed.moved(&motion).pose(),

@@ -74,6 +74,7 @@ fn run(bump: [f64; 2]) -> Run {
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
         places: 0,
+        compliances: false,
     };
     compensate_program(&task, &Unwatched).expect("run")
 }

@@ -49,6 +49,7 @@ fn run(mechanism: &Mechanism, text: &str, placement: Placement, turns_deg: &[f64
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
         places: 0,
+        compliances: false,
     };
     analyse(&task, &Unwatched).expect("run")
 }

@@ -58,6 +58,7 @@ fn run(machine: &Mechanism, arcs: Arcs, tolerance_mm: f64) -> Run {
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
         places: 0,
+        compliances: false,
     };
     let run = compensate_program(&task, &Unwatched).expect("run");
     let written = run.written.as_ref().expect("written");

@@ -225,6 +225,7 @@ impl Machine {
             run_inputs: RunInputs::default(),
             bounds: Bounds::default(),
             places: 0,
+            compliances: false,
         };
         set(&mut task);
         compensate_program(&task, &Unwatched).unwrap_or_else(|e| panic!("{e}"))

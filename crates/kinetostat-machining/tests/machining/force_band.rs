@@ -73,6 +73,7 @@ fn run(
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
         places: 0,
+        compliances: false,
     };
     work(&task, &Unwatched).expect("run")
 }

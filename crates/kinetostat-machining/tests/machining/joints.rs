@@ -47,6 +47,7 @@ fn run(
             ..Bounds::default()
         },
         places: 0,
+        compliances: false,
     };
     analyse(&task, &Unwatched)
 }

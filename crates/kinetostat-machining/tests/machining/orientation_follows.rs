@@ -79,6 +79,7 @@ fn task<'a>(
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
         places: 0,
+        compliances: false,
     }
 }
 

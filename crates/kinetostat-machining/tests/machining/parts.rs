@@ -64,6 +64,7 @@ fn with_task<R>(
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
         places: 0,
+        compliances: false,
     })
 }
 

@@ -75,6 +75,7 @@ fn run_with(
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
         places: 0,
+        compliances: false,
     };
     compensate_program(&task, &Unwatched).unwrap_or_else(|e| panic!("{e}"))
 }

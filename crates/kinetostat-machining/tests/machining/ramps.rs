@@ -49,6 +49,7 @@ fn with_task<T>(
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
         places: 0,
+        compliances: false,
     })
 }
 

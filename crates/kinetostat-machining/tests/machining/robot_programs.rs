@@ -144,6 +144,7 @@ fn run(mechanism: &Mechanism, text: &str, corrected: Directions, load: ProgramLo
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
         places: 0,
+        compliances: false,
     };
     compensate_program(&task, &Unwatched).unwrap_or_else(|e| panic!("{e}"))
 }

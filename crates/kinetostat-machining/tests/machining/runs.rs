@@ -92,6 +92,7 @@ fn run(
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
         places: 0,
+        compliances: false,
     };
     if write {
         compensate_program(&task, &Unwatched)
@@ -257,6 +258,7 @@ fn a_heavy_arm_sags_and_its_program_is_corrected_under_gravity_too() {
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
         places: 0,
+        compliances: false,
     };
     let summary = compensate_program(&task, &Unwatched)
         .expect("run")
@@ -353,6 +355,7 @@ fn points_of_a_run_are_those_of_the_general_engine() {
             run_inputs: RunInputs::default(),
             bounds: Bounds::default(),
             places: 0,
+            compliances: false,
         };
         for written in [false, true] {
             let run = match written {

@@ -81,6 +81,7 @@ fn run(
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
         places: 0,
+        compliances: false,
     };
     let run = compensate_program(&task, &Unwatched).unwrap_or_else(|e| panic!("{e}\n{text}"));
     (run, path)

@@ -70,6 +70,7 @@ fn run(
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
         places: 0,
+        compliances: false,
     };
     if write {
         compensate_program(&task, &Unwatched)

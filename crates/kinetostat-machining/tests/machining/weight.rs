@@ -56,6 +56,7 @@ fn run(weight: WeightCorrection, push: Vector3<f64>, write: bool) -> Result<Run,
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
         places: 0,
+        compliances: false,
     };
     match write {
         true => compensate_program(&task, &Unwatched),

@@ -94,5 +94,6 @@ pub fn with_task<T>(
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
         places: 0,
+        compliances: false,
     })
 }
