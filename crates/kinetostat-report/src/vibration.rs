@@ -2,6 +2,7 @@
 //!
 //! Takes what `kinetostat-chatter` computes; draws with `chart::plot`.
 
+use kinetostat::number::larger;
 use kinetostat_chatter::{Crossing, Instability, LobeDiagram, LobePoint};
 use nalgebra::Complex;
 
@@ -63,10 +64,10 @@ fn top(diagram: &LobeDiagram) -> f64 {
     let highest = |point: &LobePoint| {
         let zeroth = point.zeroth_order.map_or(0.0, |limit| limit.depth);
         let all = point.exact.crossings.iter().map(|c| c.depth);
-        all.fold(zeroth, f64::max)
+        all.fold(zeroth, larger)
     };
     let ends = diagram.points.iter().any(|p| p.exact.limit().is_none());
-    match diagram.points.iter().map(highest).reduce(f64::max) {
+    match diagram.points.iter().map(highest).reduce(larger) {
         Some(most) if !ends && 1.2 * most < diagram.up_to => 1.2 * most,
         _ => diagram.up_to,
     }

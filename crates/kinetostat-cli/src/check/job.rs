@@ -135,7 +135,7 @@ pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
 pub(crate) struct AsFarAsKnown {
     /// Ends of its program that the machine does not reach, in words.
     pub(crate) unreached: Vec<String>,
-    /// Its outputs that exist.
+    /// Outputs that exist.
     pub(crate) existing: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! What is known of a cell after some answers, and what is to be asked next.
+//! Answers about a cell, and the question that is next after them.
 
 use std::path::{Path, PathBuf};
 
@@ -6,11 +6,11 @@ use kinetostat_model::schema::AxisName;
 
 use crate::job::format::WeightWord;
 use crate::job::target_word::RobotWord;
-use crate::job::tool_mass::MASSES_KG;
 use crate::start::ask::Ask;
 use crate::start::facts::Facts;
 use crate::start::reading::{
-    Cut, Engaged, NONE, Stated, above_zero, cut, engaged, numbers, one_of, wrong,
+    Cut, Engaged, Stated, above_zero, cut, cutter, engaged, frame_numbers, mass, numbers, one_of,
+    statements, words_of, wrong,
 };
 use crate::start::robot::{Robot, Urdf};
 use crate::ui::failure::Answer;
@@ -26,7 +26,7 @@ pub(super) struct Answers {
     /// Language in which the program is to be written; `Some(None)`: that of the program.
     pub(super) to: Option<Option<RobotWord>>,
     pub(super) numbers: Option<[u32; 2]>,
-    /// One of G-code; of a robot's program those that it does not state, in their order.
+    /// Tools that the program does not state, in their order; of G-code its only one.
     pub(super) tools: Vec<Stated>,
     /// Statements of the controller that start the spindle, and that stop it.
     pub(super) spindle: Vec<Vec<String>>,
@@ -102,9 +102,8 @@ impl Answers {
 
     /// True if the job can be looked at: tools and part are known, and a cut is stated as a whole.
     pub(super) fn can_be_checked(&self) -> bool {
-        let last = [Ask::Weight, Ask::Air, Ask::Tolerance];
-        self.next()
-            .is_none_or(|open| open == Ask::Cut || last.contains(&open))
+        let behind = [Ask::Weight, Ask::Cut, Ask::Air, Ask::Tolerance];
+        self.next().is_none_or(|open| behind.contains(&open))
     }
 
     /// Takes an answer, if it is one; what was understood, where that is worth a line.
@@ -155,30 +154,14 @@ impl Answers {
                 return Ok(Some(said));
             }
             Ask::To => {
-                let words = [
-                    ("g-code", None),
-                    ("krl", Some(RobotWord::Krl)),
-                    ("rapid", Some(RobotWord::Rapid)),
-                    ("ls", Some(RobotWord::Ls)),
-                ];
+                let made = words_of().into_iter().map(|(word, own)| (word, Some(own)));
+                let words: Vec<_> = std::iter::once(("g-code".to_owned(), None))
+                    .chain(made)
+                    .collect();
                 self.to = Some(one_of(text, &words)?);
             }
-            Ask::Numbers => {
-                let whole =
-                    |x: f64| (x.fract() == 0.0 && (0.0..=255.0).contains(&x)).then_some(x as u32);
-                let [base, tool] = numbers::<2>(text)?.map(whole);
-                let pair = base
-                    .zip(tool)
-                    .ok_or_else(|| wrong("two whole numbers from 0 to 255 are needed"))?;
-                self.numbers = Some(pair.into());
-            }
-            Ask::SpindleStart | Ask::SpindleStop => {
-                let statements = text.split('|').map(|own| own.trim().to_owned());
-                self.spindle.push(match text {
-                    NONE => Vec::new(),
-                    _ => statements.collect(),
-                });
-            }
+            Ask::Numbers => self.numbers = Some(frame_numbers(text)?),
+            Ask::SpindleStart | Ask::SpindleStop => self.spindle.push(statements(text)),
             Ask::Tool => {
                 let length = numbers::<1>(text).ok();
                 let along_z = length.map(|[z]| Stated {
@@ -192,24 +175,9 @@ impl Answers {
                 let axes = ["x", "y", "z", "-x", "-y", "-z"].map(|axis| (axis, axis));
                 self.tool_axis = Some(one_of(text, &axes)?.to_owned());
             }
-            Ask::Mass => {
-                let [mass] = numbers(text)?;
-                let allowed = mass == 0.0 || MASSES_KG.contains(&mass);
-                self.mass_kg = Some(
-                    allowed
-                        .then_some(mass)
-                        .ok_or_else(|| wrong("a mass from 0.001 to 5000 kg is needed, or 0"))?,
-                );
-            }
+            Ask::Mass => self.mass_kg = Some(mass(text)?),
             Ask::Part => self.part = Some(self.stated(text)?),
-            Ask::Weight => {
-                let words = [
-                    ("touch-off", WeightWord::TouchOff),
-                    ("all", WeightWord::All),
-                    ("none", WeightWord::None),
-                ];
-                self.weight = Some(one_of(text, &words)?);
-            }
+            Ask::Weight => self.weight = Some(one_of(text, &words_of())?),
             Ask::TouchOff => self.touch_off_mm = Some(numbers(text)?),
             Ask::Cut => {
                 let cut = cut(text)?;
@@ -221,14 +189,7 @@ impl Answers {
                 }
                 self.cut = Some(cut);
             }
-            Ask::Cutter => {
-                let cutter @ [diameter, teeth, helix] = numbers(text)?;
-                let can_be = diameter > 0.0
-                    && teeth >= 1.0
-                    && teeth.fract() == 0.0
-                    && (0.0..90.0).contains(&helix);
-                self.cutter = Some(can_be.then_some(cutter).ok_or_else(|| wrong("a diameter above 0 mm, a whole number of teeth and a helix from 0 to 90 deg are needed"))?);
-            }
+            Ask::Cutter => self.cutter = Some(cutter(text)?),
             Ask::Engaged => self.engaged = Some(engaged(text)?),
             Ask::Speed => self.rpm = Some(above_zero(text)?),
             Ask::Air => self.air_mm_per_s = Some(above_zero(text)?),

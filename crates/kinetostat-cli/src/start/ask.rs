@@ -1,6 +1,6 @@
-//! What is asked, in the order in which it is.
+//! Questions by their subjects, in their order.
 
-/// A question by what it asks.
+/// Subject of a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ask {
     Robot,

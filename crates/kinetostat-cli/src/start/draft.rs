@@ -8,7 +8,7 @@ use crate::files::paths::seen_from;
 use crate::job::format::WeightWord;
 use crate::job::target_word::RobotWord;
 use crate::start::answers::Answers;
-use crate::start::reading::{Cut, Engaged, Stated};
+use crate::start::reading::{Cut, Engaged, Stated, word_of};
 
 /// File of the job.
 pub(super) const JOB: &str = "job.toml";
@@ -137,7 +137,7 @@ fn robot(answers: &Answers, to: Option<RobotWord>) -> String {
     if let Some(to) = to {
         out += &format!(
             "to = \"{}\"\ntemplate = \"{CELL}\"    # where part and tool are, and what the controller calls them\n",
-            spelling(to)
+            word_of(to)
         );
     }
     if let Some(axis) = &answers.tool_axis {
@@ -172,7 +172,7 @@ fn cell(answers: &Answers, to: RobotWord) -> String {
     let mut out = "# Written by `kinetostat start`: what G-code does not say of the robot's cell. `kinetostat help convert` shows all keys.\nschema = 1\n".to_owned();
     out += "tool_orientation = { rotation_vector_deg = [180, 0, 0] }    # z of the tool points into the part\n";
     let [base, tool] = answers.numbers.unwrap_or([1, 1]);
-    // Beside a pose, the others need no number.
+    // A frame with a pose needs no number in the other languages.
     let number = |n: u32| match to {
         RobotWord::Ls => format!("number = {n}\n"),
         RobotWord::Krl | RobotWord::Rapid => String::new(),
@@ -201,7 +201,7 @@ fn cell(answers: &Answers, to: RobotWord) -> String {
     out
 }
 
-/// What the flange carries, if it was answered.
+/// Mass on the flange, if it was answered.
 fn carried(answers: &Answers) -> String {
     let Some(mass) = answers.mass_kg.filter(|mass| *mass > 0.0) else {
         return String::new();
@@ -220,14 +220,6 @@ fn carried(answers: &Answers) -> String {
         "mass_kg = {mass}    # spindle and tool\n{}",
         centre.unwrap_or_default()
     )
-}
-
-fn spelling(to: RobotWord) -> &'static str {
-    match to {
-        RobotWord::Krl => "krl",
-        RobotWord::Rapid => "rapid",
-        RobotWord::Ls => "ls",
-    }
 }
 
 fn pose(stated: &Stated) -> String {

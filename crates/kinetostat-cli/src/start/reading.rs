@@ -1,9 +1,11 @@
 //! Answers as text: numbers, places, what cuts.
 
+use clap::ValueEnum;
 use kinetostat_cutting::Materials;
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_formats::Language;
 
+use crate::job::tool_mass::MASSES_KG;
 use crate::place::orientation;
 use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::numbers::short;
@@ -72,13 +74,8 @@ impl Stated {
             _ => return Err(wrong(POSE)),
         };
         if let Some((name, values)) = &orientation {
-            if !orientation::CONVENTIONS.contains(&name.as_str()) {
-                return Err(wrong(&format!(
-                    "'{name}' is no convention; there are {}",
-                    orientation::CONVENTIONS.join(", ")
-                )));
-            }
-            orientation::of(name, values).map_err(|fault| wrong(&fault.to_string()))?;
+            let values: Vec<String> = values.iter().map(f64::to_string).collect();
+            orientation::option("the orientation", &format!("{name}={}", values.join(",")))?;
         }
         Ok(Self {
             position_mm: [x, y, z],
@@ -102,10 +99,23 @@ pub(super) fn wrong(words: &str) -> Failure {
     ErrorCode::Value.failure(words)
 }
 
-pub(super) fn one_of<T: Clone>(text: &str, words: &[(&str, T)]) -> Answer<T> {
+/// Word of an option for a value.
+pub(super) fn word_of(value: impl ValueEnum) -> String {
+    let word = value.to_possible_value();
+    word.map_or_else(String::new, |word| word.get_name().to_owned())
+}
+
+/// Words of an option with their values.
+pub(super) fn words_of<T: ValueEnum>() -> Vec<(String, T)> {
+    let all = T::value_variants().iter();
+    all.map(|value| (word_of(value.clone()), value.clone()))
+        .collect()
+}
+
+pub(super) fn one_of<T: Clone>(text: &str, words: &[(impl AsRef<str>, T)]) -> Answer<T> {
     let lower = text.to_lowercase();
-    let found = words.iter().find(|(word, _)| *word == lower);
-    let names: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+    let found = words.iter().find(|(word, _)| word.as_ref() == lower);
+    let names: Vec<&str> = words.iter().map(|(word, _)| word.as_ref()).collect();
     found
         .map(|(_, value)| value.clone())
         .ok_or_else(|| wrong(&format!("'{text}' is none of: {}", names.join(", "))))
@@ -140,6 +150,43 @@ pub(super) fn above_zero(text: &str) -> Answer<f64> {
     match value > 0.0 {
         true => Ok(value),
         false => Err(wrong(&format!("{} is not above 0", short(value)))),
+    }
+}
+
+/// Numbers of two frames at a controller.
+pub(super) fn frame_numbers(text: &str) -> Answer<[u32; 2]> {
+    let whole = |x: f64| (x.fract() == 0.0 && (0.0..=255.0).contains(&x)).then_some(x as u32);
+    let [base, tool] = numbers::<2>(text)?.map(whole);
+    let pair = base.zip(tool).map(Into::into);
+    pair.ok_or_else(|| wrong("two whole numbers from 0 to 255 are needed"))
+}
+
+/// Statements of a controller, divided by `|`.
+pub(super) fn statements(text: &str) -> Vec<String> {
+    match text {
+        NONE => Vec::new(),
+        _ => text.split('|').map(|own| own.trim().to_owned()).collect(),
+    }
+}
+
+/// Mass on the flange, kg; 0 if nothing is to be added.
+pub(super) fn mass(text: &str) -> Answer<f64> {
+    let [mass] = numbers(text)?;
+    match mass == 0.0 || MASSES_KG.contains(&mass) {
+        true => Ok(mass),
+        false => Err(wrong("a mass from 0.001 to 5000 kg is needed, or 0")),
+    }
+}
+
+/// Diameter in mm, teeth, helix in deg.
+pub(super) fn cutter(text: &str) -> Answer<[f64; 3]> {
+    let cutter @ [diameter, teeth, helix] = numbers(text)?;
+    let is_whole = teeth >= 1.0 && teeth.fract() == 0.0;
+    match diameter > 0.0 && is_whole && (0.0..90.0).contains(&helix) {
+        true => Ok(cutter),
+        false => Err(wrong(
+            "a diameter above 0 mm, a whole number of teeth and a helix from 0 to 90 deg are needed",
+        )),
     }
 }
 

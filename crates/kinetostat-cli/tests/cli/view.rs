@@ -261,7 +261,7 @@ fn a_report_holds_the_machine_at_its_largest_errors() {
     let report = std::fs::read_to_string(here.join("kinetostat-demo/report.html")).expect("a page");
     let frame = report.split_once("sandbox=\"allow-scripts\" loading=\"lazy\" srcdoc=\"");
     let (before, frame) = frame.expect("a frame");
-    // Outside of its frame the report runs nothing, and nothing of it may ask a network.
+    // Outside of its frame the report runs no script, and nothing in it may reach a network.
     assert!(before.contains("default-src 'none'"));
     let (frame, after) = frame.split_once('"').expect("an end");
     assert!(!before.contains("<script") && !after.contains("<script"));

@@ -2,7 +2,7 @@
 
 import type { Curve, CurvePlace } from "./api";
 import { button, element } from "./panel";
-import { shown, type Store } from "./store";
+import { round, shown, type Store } from "./store";
 
 const WIDTH = 300;
 const HEIGHT = 190;
@@ -17,9 +17,7 @@ function svg(tag: string, attributes: Record<string, string>, text = ""): SVGEle
 
 /** Round values from the lowest to the highest, some four. */
 function ticks(low: number, high: number): number[] {
-  const rough = (high - low) / 4;
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const step = power * ([1, 2, 5].find((digit) => digit * power >= rough) ?? 10);
+  const step = round((high - low) / 2.5);
   const first = Math.ceil(low / step);
   return Array.from({ length: Math.floor(high / step) - first + 1 }, (_, i) => (first + i) * step);
 }
