@@ -105,24 +105,24 @@ class View:
         except ImportError as absent:
             raise ImportError("live views need anywidget: pip install 'kinetostat[view]'") from absent
         native = self._native
-        questions = {"state": native.state, "modes": native.modes, "curve": native.curve}
 
         parts = {"_esm": _AROUND, "page": traitlets.Unicode().tag(sync=True), "height": traitlets.Int(640).tag(sync=True)}
         widget_of_page = type("LiveView", (anywidget.AnyWidget,), parts)
 
         def answer(widget: Any, message: Any, buffers: Any) -> None:
             number = message.get("id") if isinstance(message, dict) else None
-            asked = questions.get(message.get("kinetostat")) if number is not None else None
-            if asked is None:
+            if number is None:
                 return
             try:
-                widget.send({"id": number, "answer": json.loads(asked(json.dumps(message.get("request"))))})
+                found = native.answer(str(message.get("kinetostat")), json.dumps(message.get("request")))
+                if found is not None:
+                    widget.send({"id": number, "answer": json.loads(found)})
             except KinetostatError as refused:
                 widget.send({"id": number, "error": str(refused)})
 
-        found: Any = widget_of_page(page=native.page(self._request, True), height=pixels)
-        found.on_msg(answer)
-        return found
+        live: Any = widget_of_page(page=native.page(self._request, True), height=pixels)
+        live.on_msg(answer)
+        return live
 
     def _repr_html_(self) -> str:
         page = html.escape(self.html)

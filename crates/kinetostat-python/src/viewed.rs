@@ -26,16 +26,10 @@ impl Viewed {
         py.detach(|| self.0.page(request, live)).map_err(of_refused)
     }
 
-    fn state(&self, py: Python<'_>, request: &str) -> PyResult<String> {
-        py.detach(|| self.0.state(request)).map_err(of_refused)
-    }
-
-    fn curve(&self, py: Python<'_>, request: &str) -> PyResult<String> {
-        py.detach(|| self.0.curve(request)).map_err(of_refused)
-    }
-
-    fn modes(&self, py: Python<'_>, request: &str) -> PyResult<String> {
-        py.detach(|| self.0.modes(request)).map_err(of_refused)
+    /// The answer to a question of the page; none if there is no such question.
+    fn answer(&self, py: Python<'_>, question: &str, request: &str) -> PyResult<Option<String>> {
+        py.detach(|| self.0.answer(question, request).transpose())
+            .map_err(of_refused)
     }
 }
 

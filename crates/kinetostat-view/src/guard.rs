@@ -8,7 +8,8 @@ use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::Response;
 
-use crate::problem::{MOST_BYTES, problem};
+use crate::answers::OPEN;
+use crate::problem::{MOST_BYTES, MOST_FILE_BYTES, problem};
 use crate::refused::Refused;
 
 /// Names under which this server may be asked, with its port.
@@ -47,7 +48,11 @@ impl Names {
                 .is_some_and(|kind| kind.trim() == "application/json")
         });
         let length = one(headers, &header::CONTENT_LENGTH).map(str::parse::<usize>);
-        if length.is_some_and(|length| length.map_or(true, |length| length > MOST_BYTES)) {
+        let most = match request.uri().path().strip_prefix("/api/") {
+            Some(OPEN) => MOST_FILE_BYTES,
+            _ => MOST_BYTES,
+        };
+        if length.is_some_and(|length| length.map_or(true, |length| length > most)) {
             return Some((StatusCode::PAYLOAD_TOO_LARGE, "the request is too long"));
         }
         if request.method() == Method::POST && !is_json {

@@ -21,7 +21,7 @@ mod refused;
 #[cfg(feature = "server")]
 mod server;
 
-pub use answers::Answers;
+pub use answers::{Answers, OPEN};
 pub use page::{PAGE, exported};
 pub use refused::Refused;
 #[cfg(feature = "server")]

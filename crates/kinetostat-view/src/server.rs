@@ -8,7 +8,7 @@ use std::time::Duration;
 use axum::Router;
 use axum::body::Bytes;
 use axum::extract::rejection::BytesRejection;
-use axum::extract::{DefaultBodyLimit, State};
+use axum::extract::{DefaultBodyLimit, Path, State};
 use axum::http::{StatusCode, header};
 use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Response};
@@ -20,10 +20,10 @@ use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
 use tokio::time::timeout;
 
-use crate::answers::Answers;
+use crate::answers::{Answers, OPEN};
 use crate::guard::{Names, guard};
 use crate::page::PAGE;
-use crate::problem::{MOST_BYTES, problem};
+use crate::problem::{MOST_BYTES, MOST_FILE_BYTES, problem};
 use crate::refused::Refused;
 
 /// Reason why there is no server.
@@ -120,15 +120,15 @@ async fn accept(listener: std::net::TcpListener, app: Router) -> io::Result<()> 
 }
 
 fn routes(answers: Arc<dyn Answers>, names: Names) -> Router {
+    let open = Router::new()
+        .route(&format!("/api/{OPEN}"), post(open))
+        .layer(DefaultBodyLimit::max(MOST_FILE_BYTES));
     Router::new()
         .route("/", get(page))
-        .route("/api/machine", get(machine))
-        .route("/api/path", get(path))
-        .route("/api/state", post(state))
-        .route("/api/modes", post(modes))
-        .route("/api/curve", post(curve))
-        .fallback(nothing)
+        .route("/api/{question}", post(question))
         .layer(DefaultBodyLimit::max(MOST_BYTES))
+        .merge(open)
+        .fallback(nothing)
         .layer(axum::middleware::from_fn(in_time))
         .layer(from_fn_with_state(names, guard))
         .with_state(answers)
@@ -151,42 +151,23 @@ async fn page() -> impl IntoResponse {
     ([(header::CONTENT_TYPE, "text/html; charset=utf-8")], PAGE)
 }
 
-async fn machine(State(answers): Session) -> Response {
-    answered(computed(move || answers.machine()).await)
-}
-
-async fn path(State(answers): Session) -> Response {
-    let found = computed(move || answers.path()).await;
-    match found.flatten() {
-        Some(path) => json(path),
-        None => problem(
-            StatusCode::NOT_FOUND,
-            &Refused::new("no_answer", "the session has no program"),
-        ),
-    }
-}
-
 /// The body of a request, or the reason why it cannot be read.
 type Body = Result<Bytes, BytesRejection>;
 
-async fn state(State(answers): Session, body: Body) -> Response {
-    asked(body, move |body| answers.state(body)).await
+async fn question(State(answers): Session, Path(name): Path<String>, body: Body) -> Response {
+    asked(answers, name, body).await
 }
 
-async fn modes(State(answers): Session, body: Body) -> Response {
-    asked(body, move |body| answers.modes(body)).await
+async fn open(State(answers): Session, body: Body) -> Response {
+    asked(answers, OPEN.to_owned(), body).await
 }
 
-async fn curve(State(answers): Session, body: Body) -> Response {
-    asked(body, move |body| answers.curve(body)).await
-}
-
-async fn asked(
-    body: Body,
-    answer: impl FnOnce(&[u8]) -> Result<String, Refused> + Send + 'static,
-) -> Response {
+async fn asked(answers: Arc<dyn Answers>, name: String, body: Body) -> Response {
     match body {
-        Ok(body) => answered(computed(move || answer(&body)).await),
+        Ok(body) => match computed(move || answers.answer(&name, &body)).await {
+            Some(None) => nothing().await,
+            found => answered(found.flatten()),
+        },
         Err(reason) => {
             let message = format!("the request cannot be read: {reason}");
             problem(reason.status(), &Refused::new("request_refused", message))

@@ -37,7 +37,7 @@ pub(crate) struct ForceArgs {
 }
 
 /// What is cut, and how the cut differs from the test in which it was measured.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(crate) struct MaterialArgs {
     /// What is cut, by any of its names; case, spaces and hyphens do not matter
     #[arg(

@@ -19,6 +19,17 @@ use crate::vibration::damping::DampingArgs;
 pub(crate) struct LobesArgs {
     #[command(flatten)]
     pub(crate) machine: VibrationArgs,
+    #[command(flatten)]
+    pub(crate) cut: LobeCutArgs,
+    #[command(flatten)]
+    pub(crate) damping: DampingArgs,
+    #[command(flatten)]
+    pub(crate) outputs: AnswerFiles,
+}
+
+/// What is cut, with what, and which speeds and depths are looked at.
+#[derive(Debug, Default, Args)]
+pub(crate) struct LobeCutArgs {
     /// Slowest and fastest spindle speed, rpm, and how many
     #[arg(long, num_args = 3, value_names = ["LO", "HI", "N"], allow_negative_numbers = true, value_parser = number, required = true, help_heading = "Cut")]
     pub(crate) rpm: Vec<f64>,
@@ -61,10 +72,6 @@ pub(crate) struct LobesArgs {
     pub(crate) modes_up_to_hz: Option<f64>,
     #[command(flatten)]
     pub(crate) material: MaterialArgs,
-    #[command(flatten)]
-    pub(crate) damping: DampingArgs,
-    #[command(flatten)]
-    pub(crate) outputs: AnswerFiles,
 }
 
 const HELP: &str = "\

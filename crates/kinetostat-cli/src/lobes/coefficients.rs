@@ -7,7 +7,7 @@ use kinetostat_machining::{Warning, WarningCode};
 use crate::files::input_files::InputFiles;
 use crate::force::fit::findings::radial_above_tangential;
 use crate::force::material::{Made, applied, material, materials};
-use crate::lobes::arguments::LobesArgs;
+use crate::lobes::arguments::LobeCutArgs;
 use crate::ui::failure::{Answer, Failing};
 use crate::ui::numbers::number;
 
@@ -24,7 +24,7 @@ pub(crate) struct CutCoefficients {
 }
 
 impl CutCoefficients {
-    pub(crate) fn of(args: &LobesArgs, arc: &Arc) -> Answer<Self> {
+    pub(crate) fn of(args: &LobeCutArgs, arc: &Arc) -> Answer<Self> {
         match &args.material.material {
             Some(_) => Self::of_material(args, arc),
             None => {
@@ -41,7 +41,7 @@ impl CutCoefficients {
         }
     }
 
-    fn of_material(args: &LobesArgs, arc: &Arc) -> Answer<Self> {
+    fn of_material(args: &LobeCutArgs, arc: &Arc) -> Answer<Self> {
         let Some(feed_mm) = args.feed_per_tooth_mm else {
             return Err(ErrorCode::Missing.failure("--material needs --feed-per-tooth-mm: how steep its law is depends on the thickness of the chips",
             ));

@@ -4,6 +4,13 @@ use kinetostat_report::{Scene, ShownPose};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::lobes::answer::{Best, Point};
+
+/// A request that asks for nothing in particular.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Nothing {}
+
 /// The machine of a session.
 #[derive(Serialize, JsonSchema)]
 pub(crate) struct MachineAnswer {
@@ -18,6 +25,10 @@ pub(crate) struct MachineAnswer {
     pub(crate) gravity_m_per_s2: [f64; 3],
     /// True if a program belongs to the session.
     pub(crate) has_path: bool,
+    /// What a map of it can show.
+    pub(crate) variables: Vec<MapVariable>,
+    /// True if the model states how vibrations are damped.
+    pub(crate) is_damped: bool,
     pub(crate) version: &'static str,
 }
 
@@ -179,6 +190,91 @@ pub(crate) struct CurveMark {
     pub(crate) words: String,
     pub(crate) factor: f64,
     pub(crate) along: f64,
+}
+
+/// A quantity that a map can show.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct MapVariable {
+    pub(crate) name: &'static str,
+    /// SI; `1` without one.
+    pub(crate) unit: &'static str,
+    pub(crate) description: &'static str,
+}
+
+/// Places of a grid, the tool turned as in a state and under its load.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MapRequest {
+    pub(crate) state: StateRequest,
+    /// Name of a variable of the machine.
+    pub(crate) variable: String,
+    /// Places of the tool, base axes; x runs fastest.
+    pub(crate) from_mm: [f64; 3],
+    pub(crate) to_mm: [f64; 3],
+    pub(crate) counts: [usize; 3],
+}
+
+/// A quantity over places.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct MapOfState {
+    /// None where the machine cannot be, or has no equilibrium.
+    pub(crate) values: Vec<Option<f64>>,
+}
+
+/// Frequencies, evenly spaced.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ResponseRequest {
+    pub(crate) state: StateRequest,
+    /// The lowest and the highest.
+    pub(crate) frequencies_hz: [f64; 2],
+    pub(crate) count: usize,
+    /// Of all modes; without it the damping of the model.
+    pub(crate) damping_ratio: Option<f64>,
+}
+
+/// How the tip answers to a vibrating force.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct ResponseOfState {
+    pub(crate) frequencies_hz: Vec<f64>,
+    /// Amplitude along x, y and z of the base by a force along the same axis.
+    pub(crate) um_per_n: [Vec<f64>; 3],
+    pub(crate) natural_frequencies_hz: Vec<f64>,
+    /// In words.
+    pub(crate) damping: String,
+    pub(crate) warnings: Vec<String>,
+}
+
+/// A milling cut and spindle speeds, evenly spaced: as the options of `lobes`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LobesRequest {
+    pub(crate) state: StateRequest,
+    /// The slowest and the fastest.
+    pub(crate) speed_rpm: [f64; 2],
+    pub(crate) speeds: usize,
+    /// Largest depth that is looked at.
+    pub(crate) depth_mm: f64,
+    pub(crate) teeth: usize,
+    /// Width of cut by diameter.
+    pub(crate) immersion: f64,
+    pub(crate) up: bool,
+    /// Base axes.
+    pub(crate) feed_direction: [f64; 3],
+    /// Tangential, radial, axial.
+    pub(crate) coefficients_n_per_mm2: [f64; 3],
+    /// Of all modes; without it the damping of the model.
+    pub(crate) damping_ratio: Option<f64>,
+}
+
+/// Depths at which a cut chatters.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct LobesOfState {
+    pub(crate) points: Vec<Point>,
+    pub(crate) best: Option<Best>,
+    /// In words.
+    pub(crate) damping: String,
+    pub(crate) warnings: Vec<String>,
 }
 
 /// The path of a program.

@@ -2,7 +2,9 @@
 
 pub(crate) mod answer;
 mod curve;
+mod cutting;
 pub(crate) mod in_report;
+mod map;
 mod modes;
 pub(crate) mod path;
 pub(crate) mod session;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use kinetostat::{Mechanism, Posture, PostureRequest, Wrench};
 use kinetostat_diagnostic::ErrorCode;
+use kinetostat_dynamics::Damping;
 use kinetostat_model::Model;
 use kinetostat_report::{Placed, Scene};
 use kinetostat_view::{Answers, Refused, exported};
@@ -18,9 +19,12 @@ use crate::place::arguments::PlaceArgs;
 use crate::place::joints;
 use crate::place::query::place_query_of;
 use crate::shown::answer::{
-    ActuatorRange, CurveRequest, Exported, ExportedState, MachineAnswer, StateAnswer, StateRequest,
+    ActuatorRange, CurveRequest, Exported, ExportedState, LobesRequest, MachineAnswer, MapRequest,
+    Nothing, ResponseRequest, StateAnswer, StateRequest,
 };
 use crate::shown::curve::curve_of;
+use crate::shown::cutting::{lobes_of, response_of};
+use crate::shown::map::{map_of, variables};
 use crate::shown::modes::modes_of;
 use crate::shown::path::ShownPath;
 use crate::shown::state::state_of;
@@ -73,6 +77,8 @@ impl Session {
             size_mm: 1e3 * size,
             gravity_m_per_s2: mechanism.gravity().into(),
             has_path: self.program.is_some(),
+            variables: variables(&posture, &self.model.ratings()),
+            is_damped: !matches!(self.model.damping(), Damping::Undamped),
             version: env!("CARGO_PKG_VERSION"),
         })
     }
@@ -218,37 +224,49 @@ impl From<Failure> for Refused {
     }
 }
 
+/// The answer to a request, both as JSON.
+fn answered<R: DeserializeOwned, A: Serialize>(
+    request: &[u8],
+    answer: impl FnOnce(R) -> Answer<A>,
+) -> Result<String, Refused> {
+    let answer = answer(read(request)?)?;
+    serde_json::to_string(&answer).map_err(|error| Refused::new("internal", error.to_string()))
+}
+
 pub(crate) fn read<R: DeserializeOwned>(request: &[u8]) -> Result<R, Refused> {
     serde_json::from_slice(request)
         .map_err(|error| Refused::new("value", format!("the request is not understood: {error}")))
 }
 
-fn json(answer: &impl Serialize) -> Result<String, Refused> {
-    serde_json::to_string(answer).map_err(|error| Refused::new("internal", error.to_string()))
-}
-
 impl Answers for Session {
-    fn machine(&self) -> Result<String, Refused> {
-        json(&self.machine_answer()?)
-    }
-
-    fn state(&self, request: &[u8]) -> Result<String, Refused> {
-        json(&self.state_answer(&read(request)?)?)
-    }
-
-    fn modes(&self, request: &[u8]) -> Result<String, Refused> {
-        let (posture, wrench) = self.asked(&read(request)?)?;
-        json(&modes_of(&posture, &wrench)?)
-    }
-
-    fn curve(&self, request: &[u8]) -> Result<String, Refused> {
-        let request: CurveRequest = read(request)?;
-        let (posture, wrench) = self.asked(&request.state)?;
-        json(&curve_of(&posture, &wrench, request.factor)?)
-    }
-
-    fn path(&self) -> Option<String> {
-        let program = self.program.as_ref()?;
-        json(&program.answer).ok()
+    fn answer(&self, question: &str, request: &[u8]) -> Option<Result<String, Refused>> {
+        Some(match question {
+            "machine" => answered(request, |Nothing {}| self.machine_answer()),
+            "path" => answered(request, |Nothing {}| {
+                Ok(self.program.as_ref().map(|program| &program.answer))
+            }),
+            "state" => answered(request, |state| self.state_answer(&state)),
+            "modes" => answered(request, |state| {
+                let (posture, wrench) = self.asked(&state)?;
+                modes_of(&posture, &wrench)
+            }),
+            "curve" => answered(request, |curve: CurveRequest| {
+                let (posture, wrench) = self.asked(&curve.state)?;
+                curve_of(&posture, &wrench, curve.factor)
+            }),
+            "map" => answered(request, |map: MapRequest| {
+                let (posture, wrench) = self.asked(&map.state)?;
+                map_of(&posture, &wrench, self.model.ratings(), &map)
+            }),
+            "response" => answered(request, |response: ResponseRequest| {
+                let (posture, wrench) = self.asked(&response.state)?;
+                response_of(&posture, &wrench, &self.model.damping(), &response)
+            }),
+            "lobes" => answered(request, |lobes: LobesRequest| {
+                let (posture, wrench) = self.asked(&lobes.state)?;
+                lobes_of(&posture, &wrench, &self.model.damping(), &lobes)
+            }),
+            _ => return None,
+        })
     }
 }

@@ -28,27 +28,11 @@ impl Viewed {
         Ok(self.0.page(&read(request.as_bytes())?, is_live)?)
     }
 
-    /// A state.
+    /// The answer to a question of the page by its name, as in `state`. None: there is no such question.
     ///
     /// # Errors
-    /// As for [`Viewed::page`].
-    pub fn state(&self, request: &str) -> Result<String, Refused> {
-        Answers::state(&self.0, request.as_bytes())
-    }
-
-    /// Vibrations about a state.
-    ///
-    /// # Errors
-    /// As for [`Viewed::page`]; a machine without masses.
-    pub fn modes(&self, request: &str) -> Result<String, Refused> {
-        Answers::modes(&self.0, request.as_bytes())
-    }
-
-    /// Equilibria while the load of a state grows.
-    ///
-    /// # Errors
-    /// As for [`Viewed::page`]; a state without a load.
-    pub fn curve(&self, request: &str) -> Result<String, Refused> {
-        Answers::curve(&self.0, request.as_bytes())
+    /// As for [`Viewed::page`]; a question that this machine has no answer to.
+    pub fn answer(&self, question: &str, request: &str) -> Option<Result<String, Refused>> {
+        self.0.answer(question, request.as_bytes())
     }
 }

@@ -55,13 +55,6 @@ impl Served {
         (code.unwrap_or(0), serde_json::from_str(body).expect("JSON"))
     }
 
-    fn get(&self, path: &str) -> (u16, Value) {
-        let host = &self.host;
-        self.answer(&format!(
-            "GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"
-        ))
-    }
-
     fn state(&self, request: &Value) -> (u16, Value) {
         self.post("state", request)
     }
@@ -81,12 +74,12 @@ fn here() -> tempfile::TempDir {
 fn a_state_has_the_figures_of_deflect_and_shares() {
     let here = here();
     let served = Served::of(here.path(), &["heavy_6r"]);
-    let (code, machine) = served.get("/api/machine");
+    let (code, machine) = served.post("machine", &json!({}));
     assert_eq!(
         (code, machine["actuators"].as_array().map(Vec::len)),
         (200, Some(6))
     );
-    assert_eq!(served.get("/api/path").0, 404);
+    assert_eq!(served.post("path", &json!({})), (200, Value::Null));
     let home = machine["actuators"].as_array().expect("a list");
     let mut joints: Vec<f64> = home
         .iter()
@@ -210,6 +203,149 @@ fn a_load_that_grows_is_that_of_the_command() {
             (422, &json!(code)),
             "{refused}"
         );
+    }
+}
+
+/// JSON of a command.
+fn said(here: &std::path::Path, line: &str) -> Value {
+    let answer = run(here, &line.split(' ').collect::<Vec<_>>()).answered();
+    serde_json::from_str(&answer.out).expect("JSON")
+}
+
+fn numbers(v: &Value) -> Vec<f64> {
+    let all = v.as_array().expect("a list");
+    all.iter().map(|x| x.as_f64().expect("a number")).collect()
+}
+
+#[test]
+fn a_map_is_that_of_the_command() {
+    let here = here();
+    let served = Served::of(here.path(), &["orthoglide"]);
+    let (_, machine) = served.post("machine", &json!({}));
+    let names = |v: &Value| v["name"].as_str().map(str::to_owned);
+    let offered: Vec<_> = machine["variables"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(names)
+        .collect();
+    assert!(offered.iter().any(|name| name == "stiffness_softest"));
+    // It has no masses and no ratings.
+    assert!(
+        !offered
+            .iter()
+            .any(|name| name == "f1" || name == "effort_share")
+    );
+    let request = |variable: &str, counts: [usize; 3]| {
+        json!({
+            "state": { "force_n": [100, 50, 0] }, "variable": variable,
+            "from_mm": [-60, -60, 0], "to_mm": [60, 60, 0], "counts": counts,
+        })
+    };
+    let (code, found) = served.post("map", &request("deflection", [7, 5, 1]));
+    assert_eq!(code, 200, "{found}");
+    let values = numbers(&found["values"]);
+    assert_eq!(values.len(), 35);
+    let line = "map orthoglide --x -60 60 7 --y -60 60 5 --z 0 --force 100 50 0 --variables deflection --json";
+    let wanted = said(here.path(), line);
+    let figure = wanted["figures"].as_array().expect("a list").iter();
+    let figure = figure.clone().find(|f| f["name"] == "deflection");
+    let figure = figure.expect("a figure");
+    let (least, most) = values.iter().fold((f64::MAX, 0.0), |(least, most), x| {
+        (x.min(least), kinetostat::number::larger(most, *x))
+    });
+    assert_eq!(figure["least"]["value"], json!(least));
+    assert_eq!(figure["most"]["value"], json!(most));
+    // x runs fastest, and one place is the state there.
+    let place = figure["most"]["position_mm"].clone();
+    let at = json!({ "at_mm": place, "force_n": [100, 50, 0] });
+    let displacement = numbers(&served.state(&at).1["displacement_mm"]);
+    let size = displacement.iter().map(|x| x * x).sum::<f64>().sqrt();
+    assert!((1e-3 * size - most).abs() < 1e-12, "{size} {most}");
+    let at_most = values.iter().position(|x| *x == most).expect("a place");
+    let place = numbers(&place);
+    let index = [at_most % 7, at_most / 7].map(|i| i as f64);
+    assert_eq!(
+        place[..2],
+        [-60.0 + 20.0 * index[0], -60.0 + 30.0 * index[1]]
+    );
+    for wrong in [
+        request("nonsense", [2, 2, 1]),
+        request("deflection", [0, 2, 1]),
+        request("deflection", [2000, 2000, 1]),
+    ] {
+        assert_eq!(served.post("map", &wrong).0, 422, "{wrong}");
+    }
+    // Where the machine cannot be there is no number.
+    let far = json!({ "state": {}, "variable": "stiffness_x", "from_mm": [0, 0, 0], "to_mm": [5000, 0, 0], "counts": [2, 1, 1] });
+    let (_, found) = served.post("map", &far);
+    assert!(
+        found["values"][0].is_number() && found["values"][1].is_null(),
+        "{found}"
+    );
+}
+
+#[test]
+fn responses_and_lobes_are_those_of_the_commands() {
+    let here = here();
+    let served = Served::of(here.path(), &["heavy_6r"]);
+    let state = json!({ "force_n": [200, 0, 0] });
+    let request =
+        json!({ "state": state, "frequencies_hz": [5, 80], "count": 16, "damping_ratio": 0.03 });
+    let (code, found) = served.post("response", &request);
+    assert_eq!(code, 200, "{found}");
+    let wanted = said(
+        here.path(),
+        "frf heavy_6r --force 200 0 0 --damping 0.03 --frequencies 5 80 16 --json",
+    );
+    assert_eq!(found["frequencies_hz"], wanted["frequencies_hz"]);
+    for axis in 0..3 {
+        let curve = &wanted["curves"][axis];
+        let [re, im] = ["real", "imaginary"].map(|part| numbers(&curve[part]));
+        for (k, own) in numbers(&found["um_per_n"][axis]).into_iter().enumerate() {
+            let wanted = 1e6 * re[k].hypot(im[k]);
+            assert!((own - wanted).abs() <= 1e-9 * wanted, "{own} {wanted}");
+        }
+    }
+    let request = json!({
+        "state": state, "speed_rpm": [1000, 6000], "speeds": 6, "depth_mm": 5, "teeth": 2, "immersion": 0.5, "up": true,
+        "feed_direction": [1, 0, 0], "coefficients_n_per_mm2": [800, 240, 0], "damping_ratio": 0.03,
+    });
+    let (code, found) = served.post("lobes", &request);
+    assert_eq!(code, 200, "{found}");
+    let wanted = said(
+        here.path(),
+        "lobes heavy_6r --force 200 0 0 --damping 0.03 --teeth 2 --immersion 0.5 --up --coefficients-n-per-mm2 800 240 0 --rpm 1000 6000 6 --json",
+    );
+    let points = |v: &Value| v["points"].as_array().cloned().expect("a list");
+    assert_eq!(points(&found).len(), 6);
+    for (own, wanted) in points(&found).iter().zip(points(&wanted)) {
+        assert_eq!(own["kind"], wanted["kind"]);
+        // The command goes to the place of the tool, the page to the joints.
+        for key in ["speed_rpm", "limit_mm", "chatter_hz"] {
+            match (own[key].as_f64(), wanted[key].as_f64()) {
+                (Some(own), Some(wanted)) => assert!((own - wanted).abs() < 1e-9 * wanted, "{key}"),
+                (own, wanted) => assert_eq!(own, wanted, "{key}"),
+            }
+        }
+    }
+    let (_, undamped) = served.post(
+        "response",
+        &json!({ "state": {}, "frequencies_hz": [1, 2], "count": 2 }),
+    );
+    assert!(undamped["error"]["code"] == "missing" || undamped["damping"].is_string());
+    for (question, key, value) in [
+        ("response", "count", json!(1)),
+        ("response", "frequencies_hz", json!([80, 5])),
+        ("lobes", "speeds", json!(1e9)),
+        ("lobes", "teeth", json!(0)),
+    ] {
+        let mut wrong = request.clone();
+        if question == "response" {
+            wrong = json!({ "state": {}, "frequencies_hz": [5, 80], "count": 16, "damping_ratio": 0.03 });
+        }
+        wrong[key] = value;
+        assert_eq!(served.post(question, &wrong).0, 422, "{wrong}");
     }
 }
 

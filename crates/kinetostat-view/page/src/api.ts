@@ -16,6 +16,10 @@ export interface Machine {
   size_mm: number;
   gravity_m_per_s2: Vec3;
   has_path: boolean;
+  /** What a map of it can show. */
+  variables: { name: string; unit: string; description: string }[];
+  /** True if the model states how vibrations are damped. */
+  is_damped: boolean;
   version: string;
 }
 
@@ -123,6 +127,54 @@ export interface Curve {
   more_branches: boolean;
 }
 
+/** A grid of places, the tool turned as in the state and under its load; x runs fastest. */
+export interface MapRequest {
+  state: StateRequest;
+  variable: string;
+  from_mm: Vec3;
+  to_mm: Vec3;
+  counts: [number, number, number];
+}
+
+export interface ResponseRequest {
+  state: StateRequest;
+  frequencies_hz: [number, number];
+  count: number;
+  /** Of all modes; without it the damping of the model. */
+  damping_ratio?: number | null;
+}
+
+export interface Response {
+  frequencies_hz: number[];
+  /** Along x, y and z, each by a force along itself. */
+  um_per_n: [number[], number[], number[]];
+  natural_frequencies_hz: number[];
+  damping: string;
+  warnings: string[];
+}
+
+export interface LobesRequest {
+  state: StateRequest;
+  speed_rpm: [number, number];
+  speeds: number;
+  depth_mm: number;
+  teeth: number;
+  /** Width of cut by diameter. */
+  immersion: number;
+  up: boolean;
+  feed_direction: Vec3;
+  /** Tangential, radial, axial. */
+  coefficients_n_per_mm2: Vec3;
+  damping_ratio?: number | null;
+}
+
+export interface Lobes {
+  points: { speed_rpm: number; limit_mm: number | null; kind: string | null; chatter_hz: number | null; stable_mm: [number, number][]; zeroth_order_mm: number | null }[];
+  best: { speed_rpm: number; depth_mm: number; no_limit_found: boolean } | null;
+  damping: string;
+  warnings: string[];
+}
+
 export interface Exported {
   /** Further states come from the page around this one. */
   live?: boolean;
@@ -132,59 +184,47 @@ export interface Exported {
   states: { place: number; state: State }[];
 }
 
-/** Where answers come from: the server, or the file itself. */
+/** What the page asks: the request and the answer of each question. */
+export interface Questions {
+  machine: [Record<string, never>, Machine];
+  /** Null: there is no program. */
+  path: [Record<string, never>, Path | null];
+  state: [StateRequest, State];
+  /** Vibrations about a state; the lowest first. */
+  modes: [StateRequest, Modes];
+  /** Equilibria while the load of a state grows to a factor of it. */
+  curve: [{ state: StateRequest; factor: number }, Curve];
+  /** A quantity over places; null where the machine cannot be. */
+  map: [MapRequest, { values: (number | null)[] }];
+  /** How the tip answers to a vibrating force. */
+  response: [ResponseRequest, Response];
+  /** At which speeds and depths a cut chatters. */
+  lobes: [LobesRequest, Lobes];
+}
+
+/** Where answers come from: the server, the file itself, or the page around it. */
 export interface Source {
   /** The state that is shown first, if not that at home. */
   readonly start?: StateRequest;
   readonly live: boolean;
-  machine(): Promise<Machine>;
-  path(): Promise<Path | null>;
-  state(request: StateRequest): Promise<State>;
-  /** Vibrations about a state; the lowest first. */
-  modes(request: StateRequest): Promise<Modes>;
-  /** Equilibria while the load of a state grows to a factor of it. */
-  curve(request: StateRequest, factor: number): Promise<Curve>;
   /** Places of the path of which there are states; null: of all. */
   readonly stored: number[] | null;
-}
-
-async function json<T>(response: Response): Promise<T> {
-  const body: unknown = await response.json();
-  if (response.ok) {
-    return body as T;
-  }
-  const error = (body as { error?: { message?: string } }).error;
-  throw new Error(error?.message ?? `The server answers with ${response.status}.`);
+  ask<Q extends keyof Questions>(question: Q, request: Questions[Q][0]): Promise<Questions[Q][1]>;
 }
 
 class Server implements Source {
   readonly live = true;
   readonly stored = null;
 
-  async machine(): Promise<Machine> {
-    return json(await fetch("api/machine"));
-  }
-
-  async path(): Promise<Path | null> {
-    const response = await fetch("api/path");
-    return response.status === 404 ? null : json(response);
-  }
-
-  async state(request: StateRequest): Promise<State> {
-    return this.post("api/state", request);
-  }
-
-  async modes(request: StateRequest): Promise<Modes> {
-    return this.post("api/modes", request);
-  }
-
-  async curve(state: StateRequest, factor: number): Promise<Curve> {
-    return this.post("api/curve", { state, factor });
-  }
-
-  private async post<T>(route: string, request: object): Promise<T> {
+  async ask<Q extends keyof Questions>(question: Q, request: Questions[Q][0]): Promise<Questions[Q][1]> {
     const headers = { "content-type": "application/json" };
-    return json(await fetch(route, { method: "POST", headers, body: JSON.stringify(request) }));
+    const answer = await fetch(`api/${question}`, { method: "POST", headers, body: JSON.stringify(request) });
+    const body: unknown = await answer.json();
+    if (answer.ok) {
+      return body as Questions[Q][1];
+    }
+    const error = (body as { error?: { message?: string } }).error;
+    throw new Error(error?.message ?? `The server answers with ${answer.status}.`);
   }
 }
 
@@ -196,25 +236,22 @@ class File implements Source {
     this.stored = held.states.map((own) => own.place);
   }
 
-  async machine(): Promise<Machine> {
-    return this.held.machine;
+  async ask<Q extends keyof Questions>(question: Q, request: Questions[Q][0]): Promise<Questions[Q][1]> {
+    const answers: { [K in keyof Questions]?: () => Questions[K][1] } = {
+      machine: () => this.held.machine,
+      path: () => this.held.path,
+      state: () => this.state(request as StateRequest),
+    };
+    const answer = answers[question];
+    if (answer === undefined) {
+      throw new Error("This file holds results; kinetostat view computes new ones.");
+    }
+    return answer();
   }
 
-  async path(): Promise<Path | null> {
-    return this.held.path;
-  }
-
-  async state(request: StateRequest): Promise<State> {
+  private state(request: StateRequest): State {
     const place = typeof request.place === "number" ? nearest(this.stored, request.place) : null;
     return this.held.states.find((own) => own.place === place)?.state ?? this.held.state;
-  }
-
-  async modes(): Promise<Modes> {
-    throw new Error("This file holds no vibrations.");
-  }
-
-  async curve(): Promise<Curve> {
-    throw new Error("This file holds no curves.");
   }
 }
 
@@ -224,6 +261,7 @@ class Around implements Source {
   readonly stored = null;
   readonly start: StateRequest;
   private readonly waiting = new Map<number, { resolve: (answer: never) => void; reject: (error: Error) => void }>();
+  private asked = 0;
 
   constructor(private readonly held: Exported) {
     const { actuators, force_n, moment_n_m } = held.state;
@@ -239,34 +277,15 @@ class Around implements Source {
     });
   }
 
-  async machine(): Promise<Machine> {
-    return this.held.machine;
-  }
-
-  async path(): Promise<Path | null> {
-    return this.held.path;
-  }
-
-  async state(request: StateRequest): Promise<State> {
-    // The first state came with the page.
-    return request === this.start ? this.held.state : this.ask("state", request);
-  }
-
-  async modes(request: StateRequest): Promise<Modes> {
-    return this.ask("modes", request);
-  }
-
-  async curve(state: StateRequest, factor: number): Promise<Curve> {
-    return this.ask("curve", { state, factor });
-  }
-
-  private ask<T>(kind: "state" | "modes" | "curve", request: object): Promise<T> {
+  async ask<Q extends keyof Questions>(question: Q, request: Questions[Q][0]): Promise<Questions[Q][1]> {
+    // The machine and its first state came with the page.
+    if (question === "machine" || request === this.start) {
+      return (question === "machine" ? this.held.machine : this.held.state) as Questions[Q][1];
+    }
     const id = (this.asked += 1);
-    window.parent.postMessage({ kinetostat: kind, id, request }, "*");
+    window.parent.postMessage({ kinetostat: question, id, request }, "*");
     return new Promise((resolve, reject) => this.waiting.set(id, { resolve: resolve as (answer: never) => void, reject }));
   }
-
-  private asked = 0;
 }
 
 /** The place of a list that is nearest to one. */

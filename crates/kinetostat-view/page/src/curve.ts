@@ -63,7 +63,7 @@ export class CurveView {
     this.said.textContent = "Following ...";
     const { request } = this.store;
     try {
-      this.curve = await this.store.source.curve(request, this.factor.valueAsNumber);
+      this.curve = await this.store.source.ask("curve", { state: request, factor: this.factor.valueAsNumber });
     } catch (error) {
       this.said.textContent = String((error as Error).message);
       return;

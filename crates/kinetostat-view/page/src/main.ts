@@ -12,8 +12,8 @@ import "./style.css";
 
 async function start(): Promise<void> {
   const from = source();
-  const machine = await from.machine();
-  const path = machine.has_path || !from.live ? await from.path() : null;
+  const machine = await from.ask("machine", {});
+  const path = machine.has_path ? await from.ask("path", {}) : null;
   document.title = `${machine.name} - kinetostat`;
   const store = new Store(from, machine, path);
   await store.ask();

@@ -118,9 +118,9 @@ export class Store {
     while (this.waiting) {
       this.waiting = false;
       try {
-        this.state = await this.source.state(this.request);
+        this.state = await this.source.ask("state", this.request);
         this.shape = null;
-        this.modes = this.look.swing ? await this.source.modes(this.request) : null;
+        this.modes = this.look.swing ? await this.source.ask("modes", this.request) : null;
         this.error = null;
       } catch (error) {
         this.error = error instanceof TypeError ? "The server does not answer: is the command still running?" : String((error as Error).message);

@@ -142,7 +142,7 @@ test("a place out of reach is said, and the page goes on", async () => {
 });
 
 /** The path of a job as the server gives it. */
-const pathOf = async (url) => (await fetch(`${url}api/path`)).json();
+const pathOf = async (url) => (await fetch(`${url}api/path`, { method: "POST", headers: { "content-type": "application/json" }, body: "{}" })).json();
 
 const digits = (x) => String(Number(x.toPrecision(3)));
 /** An error as it is to be read: um below 0.1 mm, mm above. */

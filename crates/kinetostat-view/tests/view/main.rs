@@ -4,7 +4,7 @@ use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::sync::Arc;
 
-use kinetostat_view::{Answers, PAGE, Refused, Server, exported};
+use kinetostat_view::{Answers, OPEN, PAGE, Refused, Server, exported};
 
 type Outcome = anyhow::Result<()>;
 
@@ -12,28 +12,13 @@ type Outcome = anyhow::Result<()>;
 struct Echo;
 
 impl Answers for Echo {
-    fn machine(&self) -> Result<String, Refused> {
-        Ok(r#"{"name":"echo"}"#.to_owned())
-    }
-
-    fn state(&self, request: &[u8]) -> Result<String, Refused> {
-        match request {
-            b"\"refuse\"" => Err(Refused::new("value", "no such state")),
-            b"\"panic\"" => panic!("a fault of the computation"),
-            own => Ok(String::from_utf8_lossy(own).into_owned()),
+    fn answer(&self, question: &str, request: &[u8]) -> Option<Result<String, Refused>> {
+        match (question, request) {
+            ("state" | OPEN, b"\"refuse\"") => Some(Err(Refused::new("value", "no such state"))),
+            ("state" | OPEN, b"\"panic\"") => panic!("a fault of the computation"),
+            ("state" | OPEN, own) => Some(Ok(String::from_utf8_lossy(own).into_owned())),
+            _ => None,
         }
-    }
-
-    fn modes(&self, request: &[u8]) -> Result<String, Refused> {
-        self.state(request)
-    }
-
-    fn curve(&self, request: &[u8]) -> Result<String, Refused> {
-        self.state(request)
-    }
-
-    fn path(&self) -> Option<String> {
-        None
     }
 }
 
@@ -67,11 +52,15 @@ fn get(host: &str, path: &str, headers: &str) -> anyhow::Result<(u16, String)> {
 }
 
 fn post(host: &str, headers: &str, body: &str) -> anyhow::Result<(u16, String)> {
+    asked(host, "state", headers, body)
+}
+
+fn asked(host: &str, question: &str, headers: &str, body: &str) -> anyhow::Result<(u16, String)> {
     let length = body.len();
     answer(
         host,
         &format!(
-            "POST /api/state HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\nContent-Length: {length}\r\n{headers}\r\n{body}"
+            "POST /api/{question} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\nContent-Length: {length}\r\n{headers}\r\n{body}"
         ),
     )
 }
@@ -82,11 +71,7 @@ const JSON: &str = "Content-Type: application/json\r\n";
 fn the_page_and_its_answers_are_served() -> Outcome {
     let host = host()?;
     assert_eq!(get(&host, "/", "")?, (200, PAGE.to_owned()));
-    assert_eq!(
-        get(&host, "/api/machine", "")?,
-        (200, r#"{"name":"echo"}"#.to_owned())
-    );
-    assert_eq!(get(&host, "/api/path", "")?.0, 404);
+    assert_eq!(asked(&host, "nothing", JSON, "{}")?.0, 404);
     assert_eq!(post(&host, JSON, "{}")?, (200, "{}".to_owned()));
     let own_page = format!("{JSON}Origin: http://{host}\r\nSec-Fetch-Site: same-origin\r\n");
     assert_eq!(post(&host, &own_page, "[1]")?, (200, "[1]".to_owned()));
@@ -107,7 +92,7 @@ fn the_page_and_its_answers_are_served() -> Outcome {
 #[test]
 fn strangers_are_refused() -> Outcome {
     let host = host()?;
-    let evil = "GET /api/machine HTTP/1.1\r\nHost: evil.example\r\nConnection: close\r\n\r\n";
+    let evil = "GET / HTTP/1.1\r\nHost: evil.example\r\nConnection: close\r\n\r\n";
     assert_eq!(answer(&host, evil)?.0, 421);
     let twice = format!(
         "GET / HTTP/1.1\r\nHost: {host}\r\nHost: evil.example\r\nConnection: close\r\n\r\n"
@@ -118,7 +103,7 @@ fn strangers_are_refused() -> Outcome {
         "Origin: null\r\n",
         "Sec-Fetch-Site: cross-site\r\n",
     ] {
-        assert_eq!(get(&host, "/api/machine", headers)?.0, 403, "{headers}");
+        assert_eq!(get(&host, "/", headers)?.0, 403, "{headers}");
         assert_eq!(
             post(&host, &format!("{JSON}{headers}"), "{}")?.0,
             403,
@@ -152,6 +137,8 @@ fn size_time_and_number_of_requests_are_bounded() -> Outcome {
     let (code, body) = post(&host, JSON, &"x".repeat(100_000))?;
     assert_eq!(code, 413);
     assert!(body.starts_with(r#"{"error""#), "{body}");
+    let files = "x".repeat(100_000);
+    assert_eq!(asked(&host, OPEN, JSON, &files)?, (200, files));
     // Without sending it: the length alone is enough.
     let huge = format!(
         "POST /api/state HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n{JSON}Content-Length: 1000000000\r\n\r\n"
@@ -167,7 +154,7 @@ fn size_time_and_number_of_requests_are_bounded() -> Outcome {
             Ok(stream)
         })
         .collect::<anyhow::Result<_>>()?;
-    assert_eq!(get(&host, "/api/machine", "")?.0, 200);
+    assert_eq!(get(&host, "/", "")?.0, 200);
     drop(idle);
     Ok(())
 }
