@@ -33,7 +33,8 @@ pub(crate) fn response_of(
     request: &ResponseRequest,
 ) -> Answer<ResponseOfState> {
     let [low, high] = request.frequencies_hz;
-    if !(low >= 0.0 && high > low && high <= 1e6) || !(2..=MOST).contains(&request.count) {
+    let rise = low >= 0.0 && high > low && high <= 1e6;
+    if !(rise && (2..=MOST).contains(&request.count)) {
         return Err(ErrorCode::Value.failure(format!(
             "frequencies rise from 0 to at most 1e6 Hz, 2 to {MOST} of them"
         )));

@@ -6,6 +6,7 @@ mod cutting;
 pub(crate) mod in_report;
 mod map;
 mod modes;
+mod opened;
 pub(crate) mod path;
 pub(crate) mod session;
 mod state;

@@ -225,7 +225,7 @@ impl From<Failure> for Refused {
 }
 
 /// The answer to a request, both as JSON.
-fn answered<R: DeserializeOwned, A: Serialize>(
+pub(crate) fn answered<R: DeserializeOwned, A: Serialize>(
     request: &[u8],
     answer: impl FnOnce(R) -> Answer<A>,
 ) -> Result<String, Refused> {

@@ -6,7 +6,8 @@ mod answers;
 mod ask;
 mod draft;
 mod facts;
-mod question;
+pub(crate) mod interview;
+pub(crate) mod question;
 mod reading;
 mod robot;
 
@@ -16,14 +17,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use kinetostat_diagnostic::ErrorCode;
 
-use crate::check::job::as_far_as_known;
 use crate::compensate::{self, arguments::CompensateArgs};
 use crate::files::made_folder::in_folder;
-use crate::files::outputs::{self, Existing, Outputs};
+use crate::files::outputs::{self, Existing};
 use crate::options::EXIT_CODES;
-use crate::start::answers::Answers;
-use crate::start::question::Question;
-use crate::start::reading::wrong;
+use crate::start::interview::Interview;
 use crate::ui::failure::{Answer, Failing};
 use crate::ui::given::Given;
 use crate::ui::host;
@@ -84,39 +82,18 @@ pub(crate) fn run(args: &StartArgs) -> Answer<()> {
 
 /// Asks, and writes the files; gives that of the job.
 fn written(folder: &Path, force_overwrite: bool) -> Answer<PathBuf> {
-    let existing = Existing::forced(force_overwrite);
-    let job = folder.join(draft::JOB);
-    let mut answers = Answers {
-        folder: folder.to_owned(),
-        ..Answers::default()
-    };
-    claimed(&answers, existing)?;
-    interview(&mut answers, existing)?;
-    let mut outputs = claimed(&answers, existing)?;
-    for (index, (_, _, text)) in draft::files(&answers).into_iter().enumerate() {
-        outputs.fill(index, text.as_bytes())?;
-    }
-    let paths = outputs.commit()?;
+    let mut interview = Interview::new(folder, Existing::forced(force_overwrite))?;
+    ask_all(&mut interview)?;
+    let (job, paths) = interview.write()?;
     screen::print(Stream::Out, &format!("{}\n", outputs::written(&paths)))?;
     Ok(job)
 }
 
-/// The files that the answers make so far: nobody goes through all questions to hear that one is there already.
-fn claimed(answers: &Answers, existing: Existing) -> Answer<Outputs> {
-    let mut outputs = Outputs::new(existing, Vec::new());
-    for (what, path, _) in draft::files(answers) {
-        outputs.claim(what, &path)?;
-    }
-    Ok(outputs)
-}
-
-/// Asks until all is known.
-fn interview(answers: &mut Answers, existing: Existing) -> Answer<()> {
-    let mut before: Vec<Answers> = Vec::new();
+/// Asks on the terminal until all is known.
+fn ask_all(interview: &mut Interview) -> Answer<()> {
     let mut lines = std::io::stdin().lock().lines();
     let is_person = std::io::stdin().is_terminal();
-    while let Some(ask) = answers.next() {
-        let question = Question::of(ask, answers);
+    while let Some(question) = interview.question() {
         let usual = question
             .usual
             .map_or_else(String::new, |usual| format!(" [{usual}]"));
@@ -133,30 +110,22 @@ fn interview(answers: &mut Answers, existing: Existing) -> Answer<()> {
         if !is_person {
             screen::print(Stream::Out, &format!("{line}\n"))?;
         }
-        let given = match (line.trim(), question.usual) {
+        match (line.trim(), question.usual) {
             ("?", _) | ("", None) => {
                 screen::print(Stream::Out, &wrapped(&question.help, 2))?;
                 continue;
             }
             ("<", _) => {
-                if let Some(earlier) = before.pop() {
-                    *answers = earlier;
-                }
+                interview.back();
                 continue;
             }
-            ("", Some(usual)) => usual,
-            (given, _) => given,
-        };
-        let mut next = answers.clone();
-        match next.take(ask, given).and_then(|said| {
-            claimed(&next, existing)?;
-            checked(&next, existing).map(|()| said)
-        }) {
+            _ => (),
+        }
+        match interview.take(&line) {
             Ok(said) => {
-                for line in said.iter().flat_map(|said| said.lines()) {
-                    screen::print(Stream::Out, &wrapped(line, 2))?;
+                for line in said {
+                    screen::print(Stream::Out, &wrapped(&line, 2))?;
                 }
-                before.push(std::mem::replace(answers, next));
             }
             // A script cannot answer again.
             Err(failure) if !is_person => return Err(failure),
@@ -164,26 +133,4 @@ fn interview(answers: &mut Answers, existing: Existing) -> Answer<()> {
         }
     }
     Ok(())
-}
-
-/// Looks at the job as far as it is known: its values, its outputs, and whether the machine reaches the program. What else may be
-/// wrong the first run says, with the files there to be changed.
-fn checked(answers: &Answers, existing: Existing) -> Answer<()> {
-    if !answers.can_be_checked() {
-        return Ok(());
-    }
-    let job = answers.folder.join(draft::JOB);
-    let found = as_far_as_known(&draft::in_memory(answers), &job)?;
-    if let (Existing::Refuse, Some(path)) = (existing, found.existing.first()) {
-        return Err(ErrorCode::Output.failure(format!(
-            "the result would be written to '{path}', which exists already: start with another --out, or with --force-overwrite"
-        )));
-    }
-    match found.unreached.as_slice() {
-        [] => Ok(()),
-        [first, rest @ ..] => Err(wrong(&match rest.len() {
-            0 => first.clone(),
-            n => format!("{first} (and {n} more of its ends)"),
-        })),
-    }
 }

@@ -5,11 +5,10 @@ use std::sync::Arc;
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_view::{ServeError, Server};
 
-use crate::shown::answer::StateRequest;
-use crate::shown::session::Session;
 use crate::ui::failure::{Answer, Failing, Failure};
 use crate::ui::host;
 use crate::ui::screen::{self, Stream};
+use crate::view::served::Served;
 
 impl From<ServeError> for Failure {
     fn from(error: ServeError) -> Self {
@@ -17,11 +16,13 @@ impl From<ServeError> for Failure {
     }
 }
 
+/// Serves the page until the process ends; `words` say what it shows, `state` is what it shows first.
 pub(super) fn serve(
     port: Option<usize>,
     opens_browser: bool,
-    session: Session,
-    start: &StateRequest,
+    served: Served,
+    words: &str,
+    state: &str,
 ) -> Answer<()> {
     if host::current().is_some() {
         return Err(ErrorCode::NotBuiltIn.failure(
@@ -31,26 +32,22 @@ pub(super) fn serve(
     let port = u16::try_from(port.unwrap_or(0))
         .map_err(|_| ErrorCode::Value.failure("--port: 0 to 65535"))?;
     let server = Server::listen(port)?;
-    let state = serde_json::to_string(start).unwrap_or_default();
-    let url = format!("{}#state={}", server.url(), in_url(&state));
-    screen::print(
-        Stream::Out,
-        &format!(
-            "{} in three dimensions: {url}\nCtrl-C ends it.\n",
-            session.named
-        ),
-    )?;
+    let url = match state {
+        "" => server.url(),
+        _ => format!("{}#state={state}", server.url()),
+    };
+    screen::print(Stream::Out, &format!("{words}: {url}\nCtrl-C ends it.\n"))?;
     if opens_browser && open::that_detached(&url).is_err() {
         screen::print(
             Stream::Err,
             "no browser could be opened: open the address above in one\n",
         )?;
     }
-    Ok(server.serve(Arc::new(session))?)
+    Ok(server.serve(Arc::new(served))?)
 }
 
 /// A text as part of an address.
-fn in_url(text: &str) -> String {
+pub(super) fn in_url(text: &str) -> String {
     let byte = |b: u8| match b.is_ascii_alphanumeric() || b"-_.~,:".contains(&b) {
         true => char::from(b).to_string(),
         false => format!("%{b:02X}"),

@@ -1,11 +1,13 @@
 //! `start`: answers become a job that every command reads, and its first result.
 
+use std::collections::BTreeMap;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Stdio;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
+use crate::common::served::Served;
 use crate::common::{PROGRAM, Said, command, contents, run, workplace};
 
 /// A slot in KRL whose tool and base only the controller knows.
@@ -259,4 +261,69 @@ fn a_program_that_is_run_once_is_written_flat() {
         said.out
     );
     run(here, &["check", "cell/job.toml"]).answered();
+}
+
+#[test]
+fn the_page_asks_the_same_and_writes_the_same_files() {
+    let with_slot = || {
+        let here = tempfile::tempdir().expect("a directory");
+        std::fs::write(here.path().join("part.src"), SLOT).expect("written");
+        here
+    };
+    let (typed, shown) = (with_slot(), with_slot());
+    start(typed.path(), &ANSWERS, &[]);
+    let served = Served::of(shown.path(), &[]);
+    assert_eq!(served.post("machine", &json!({})), (200, Value::Null));
+    assert_eq!(served.post("state", &json!({})).0, 404);
+    let (_, first) = served.post("start", &json!({}));
+    let choices = first["question"]["choices"].as_array().expect("a list");
+    assert!(choices.contains(&json!("heavy_6r")), "{first}");
+    // What cannot be taken leaves the question, and one can go back.
+    let (_, wrong) = served.post("start", &json!({ "answer": "no_such_robot" }));
+    assert_eq!(wrong["question"]["words"], first["question"]["words"]);
+    assert!(wrong["refused"].is_string(), "{wrong}");
+    let (_, robot) = served.post("start", &json!({ "answer": ANSWERS[0] }));
+    assert!(
+        robot["question"]["choices"]
+            .as_array()
+            .expect("a list")
+            .contains(&json!("part.src"))
+    );
+    let (_, back) = served.post("start", &json!({ "back": true }));
+    assert_eq!(back["question"]["words"], first["question"]["words"]);
+    let mut last = back;
+    for answer in ANSWERS {
+        last = served.post("start", &json!({ "answer": answer })).1;
+        assert_eq!(last["refused"], Value::Null, "{answer}");
+    }
+    assert_eq!(last["question"], Value::Null, "{last}");
+    assert_eq!(last["given"].as_array().map(Vec::len), Some(ANSWERS.len()));
+    let (_, written) = served.post("start", &json!({ "write": true }));
+    assert_eq!(written["refused"], Value::Null, "{written}");
+    let [files, wanted] = [&shown, &typed].map(|folder| {
+        let within = |file: PathBuf| file.strip_prefix(folder.path()).map(Path::to_owned);
+        let all = contents(folder.path()).into_iter();
+        all.map(|(file, bytes)| (within(file).expect("a file in it"), bytes))
+            .collect::<BTreeMap<_, _>>()
+    });
+    assert!(files.len() >= 6 && files.keys().eq(wanted.keys()));
+    // The report has the time at which it was written.
+    let texts = files
+        .iter()
+        .filter(|(file, _)| file.extension() != Some("html".as_ref()));
+    for (file, bytes) in texts {
+        assert!(bytes == &wanted[file], "{}", file.display());
+    }
+    // The machine stands there, with its program.
+    assert_eq!(served.post("machine", &json!({})).1["has_path"], true);
+    assert!(served.post("path", &json!({})).1["places"].is_array());
+    assert_eq!(served.post("state", &json!({ "place": 0 })).0, 200);
+    // Where a job is already there is nothing to ask.
+    let said = run(shown.path(), &["view", "--no-browser"]);
+    assert_eq!(said.code, 1);
+    assert!(
+        said.err.contains("kinetostat view job.toml"),
+        "{}",
+        said.err
+    );
 }

@@ -1,70 +1,9 @@
 //! `view`: the page gets the same figures as the other commands give.
 
-use std::io::{BufRead, BufReader, Read, Write};
-use std::net::TcpStream;
-use std::path::Path;
-use std::process::{Child, Command, Stdio};
-
 use serde_json::{Value, json};
 
-use crate::common::{BINARY, run};
-
-/// A server that ends with the test.
-struct Served {
-    process: Child,
-    host: String,
-}
-
-impl Drop for Served {
-    fn drop(&mut self) {
-        let _ = self.process.kill();
-        let _ = self.process.wait();
-    }
-}
-
-impl Served {
-    fn of(here: &Path, words: &[&str]) -> Self {
-        let mut process = Command::new(BINARY)
-            .arg("view")
-            .args(words)
-            .arg("--no-browser")
-            .current_dir(here)
-            .stdout(Stdio::piped())
-            .spawn()
-            .expect("the command runs");
-        let mut line = String::new();
-        let out = process.stdout.take().expect("a pipe");
-        BufReader::new(out).read_line(&mut line).expect("a line");
-        let address = line.split_once("http://").map(|(_, rest)| rest);
-        let host = address
-            .and_then(|rest| rest.split_once('/'))
-            .map(|(host, _)| host);
-        let host = host
-            .unwrap_or_else(|| panic!("no address: {line}"))
-            .to_owned();
-        Self { process, host }
-    }
-
-    fn answer(&self, request: &str) -> (u16, Value) {
-        let mut stream = TcpStream::connect(&self.host).expect("a connection");
-        stream.write_all(request.as_bytes()).expect("written");
-        let mut text = String::new();
-        stream.read_to_string(&mut text).expect("an answer");
-        let code = text.split(' ').nth(1).and_then(|code| code.parse().ok());
-        let body = text.split_once("\r\n\r\n").expect("a body").1;
-        (code.unwrap_or(0), serde_json::from_str(body).expect("JSON"))
-    }
-
-    fn state(&self, request: &Value) -> (u16, Value) {
-        self.post("state", request)
-    }
-
-    fn post(&self, route: &str, request: &Value) -> (u16, Value) {
-        let (host, body) = (&self.host, request.to_string());
-        let length = body.len();
-        self.answer(&format!("POST /api/{route} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\nContent-Type: application/json\r\nContent-Length: {length}\r\n\r\n{body}"))
-    }
-}
+use crate::common::run;
+use crate::common::served::Served;
 
 fn here() -> tempfile::TempDir {
     tempfile::tempdir().expect("a directory")
@@ -251,9 +190,8 @@ fn a_map_is_that_of_the_command() {
     let figure = wanted["figures"].as_array().expect("a list").iter();
     let figure = figure.clone().find(|f| f["name"] == "deflection");
     let figure = figure.expect("a figure");
-    let (least, most) = values.iter().fold((f64::MAX, 0.0), |(least, most), x| {
-        (x.min(least), kinetostat::number::larger(most, *x))
-    });
+    let least = values.iter().copied().reduce(kinetostat::number::smaller);
+    let most = values.iter().copied().fold(0.0, kinetostat::number::larger);
     assert_eq!(figure["least"]["value"], json!(least));
     assert_eq!(figure["most"]["value"], json!(most));
     // x runs fastest, and one place is the state there.
@@ -493,4 +431,61 @@ fn an_exported_page_holds_machine_path_and_states() {
     // Not over a file that is there.
     assert_eq!(run(&folder, &words).code, 1);
     assert!(page.len() < 7_000_000, "{} bytes", page.len());
+}
+
+#[test]
+fn files_that_are_dropped_are_shown() {
+    let here = here();
+    run(here.path(), &["demo"]).answered();
+    let folder = here.path().join("kinetostat-demo");
+    let file = |name: &str| {
+        let text = std::fs::read_to_string(folder.join(name)).expect("a file");
+        json!({ "name": name, "text": text })
+    };
+    let elsewhere = tempfile::tempdir().expect("a directory");
+    let served = Served::of(elsewhere.path(), &["heavy_6r"]);
+    let open = |files: &[Value]| served.post("open", &json!({ "files": files }));
+    // A job without its program: what is missing is named as the job names it.
+    let (code, refused) = open(&[file("job.toml")]);
+    let message = refused["error"]["message"].as_str().expect("words");
+    assert_eq!(code, 422);
+    assert!(
+        message.contains("'original.ngc'") && !message.contains("tmp"),
+        "{message}"
+    );
+    assert_eq!(
+        served.post("machine", &json!({})).1["actuators"]
+            .as_array()
+            .map(Vec::len),
+        Some(6)
+    );
+    let (code, opened) = open(&[file("original.ngc"), file("model.toml"), file("job.toml")]);
+    assert_eq!((code, opened), (200, Value::Null));
+    let (_, machine) = served.post("machine", &json!({}));
+    assert_eq!(
+        (&machine["source"], &machine["has_path"]),
+        (&json!("job.toml"), &json!(true))
+    );
+    let (_, path) = served.post("path", &json!({}));
+    let most = path["places"].as_array().expect("a list").iter();
+    let most = most.map(|p| p["error_before_mm"].as_f64().expect("a number"));
+    let most = most.fold(0.0, kinetostat::number::larger);
+    assert!((most - 0.778).abs() < 2e-3, "{most}");
+    let outside = json!({ "name": "../up.toml", "text": "" });
+    for (files, code) in [
+        (vec![file("original.ngc")], "missing"),
+        (vec![outside], "value"),
+        (
+            vec![json!({ "name": "model.toml", "text": "schema = 1\n[mechanism]\n" })],
+            "model_file",
+        ),
+    ] {
+        let (status, refused) = open(&files);
+        assert_eq!(
+            (status, &refused["error"]["code"]),
+            (422, &json!(code)),
+            "{refused}"
+        );
+    }
+    assert!(!elsewhere.path().join("../up.toml").exists());
 }

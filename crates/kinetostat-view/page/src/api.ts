@@ -184,9 +184,25 @@ export interface Exported {
   states: { place: number; state: State }[];
 }
 
+/** Where the questions of `kinetostat start` stand. */
+export interface Start {
+  /** Null: all is known. */
+  question: { words: string; help: string; usual: string | null; choices: string[] } | null;
+  given: { words: string; answer: string }[];
+  /** What was understood of the last answer. */
+  said: string[];
+  refused: string | null;
+  /** The machine stands behind the next question for it. */
+  written: string[];
+}
+
 /** What the page asks: the request and the answer of each question. */
 export interface Questions {
-  machine: [Record<string, never>, Machine];
+  /** Null: there is none yet, and the questions of `start` come first. */
+  machine: [Record<string, never>, Machine | null];
+  start: [{ answer?: string; back?: boolean; write?: boolean }, Start];
+  /** Shows the job, or else the model, of some files. */
+  open: [{ files: { name: string; text: string }[] }, null];
   /** Null: there is no program. */
   path: [Record<string, never>, Path | null];
   state: [StateRequest, State];
@@ -204,6 +220,8 @@ export interface Questions {
 
 /** Where answers come from: the server, the file itself, or the page around it. */
 export interface Source {
+  /** True if it opens other files. */
+  readonly opens: boolean;
   /** The state that is shown first, if not that at home. */
   readonly start?: StateRequest;
   readonly live: boolean;
@@ -213,6 +231,7 @@ export interface Source {
 }
 
 class Server implements Source {
+  readonly opens = true;
   readonly live = true;
   readonly stored = null;
 
@@ -229,6 +248,7 @@ class Server implements Source {
 }
 
 class File implements Source {
+  readonly opens = false;
   readonly live = false;
   readonly stored: number[];
 
@@ -257,6 +277,7 @@ class File implements Source {
 
 /** The page around this one answers, as a notebook does: a message with a number, and one with the same number back. */
 class Around implements Source {
+  readonly opens = false;
   readonly live = true;
   readonly stored = null;
   readonly start: StateRequest;

@@ -5,6 +5,7 @@ import { source } from "./api";
 import { Panel, button, element } from "./panel";
 import { PathView } from "./pathview";
 import { printable } from "./picture";
+import { Questions } from "./questions";
 import { Stage } from "./stage";
 import { Store } from "./store";
 import { toolbar } from "./toolbar";
@@ -13,6 +14,15 @@ import "./style.css";
 async function start(): Promise<void> {
   const from = source();
   const machine = await from.ask("machine", {});
+  if (machine === null) {
+    const dark = window.matchMedia("(prefers-color-scheme: dark)");
+    const theme = () => (document.documentElement.dataset.theme = dark.matches ? "dark" : "light");
+    dark.addEventListener("change", theme);
+    theme();
+    document.body.replaceChildren();
+    await new Questions(document.body, from).ask({});
+    return;
+  }
   const path = machine.has_path ? await from.ask("path", {}) : null;
   document.title = `${machine.name} - kinetostat`;
   const store = new Store(from, machine, path);

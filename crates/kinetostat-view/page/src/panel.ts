@@ -5,6 +5,7 @@ import type { State, Vec3 } from "./api";
 import { limbValues } from "./byvalue";
 import { byShare } from "./colour";
 import { CurveView } from "./curve";
+import { opening } from "./opening";
 import { picture } from "./picture";
 import type { Stage } from "./stage";
 import { scaleOf, shown, type Colours, type Store } from "./store";
@@ -140,6 +141,7 @@ export class Panel {
       section("What bends", this.shares),
       ...(live ? [this.curve.section] : []),
       element("div", { class: "row" }, ...(hasAddress() ? [this.copy("Copy link", () => store.link())] : []), this.copy("Copy command", () => store.state?.cli ?? ""), this.copy("Copy Python", () => store.state?.python ?? ""), this.picture(), this.said),
+      ...(source.opens ? [opening(source)] : []),
       element("p", { class: "unit" }, `kinetostat ${machine.version}`),
     );
   }

@@ -16,15 +16,16 @@ const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.mi
 const running = [];
 let browser;
 
-/** Address of a server of the command that ends with the tests. */
-async function served(...words) {
-  const server = spawn(command, ["view", ...words, "--no-browser"], { cwd: join(folder, "kinetostat-demo") });
+/** Address of a server of the command that ends with the tests, in the folder of the demo. */
+const served = (...words) => servedIn(join(folder, "kinetostat-demo"), ...words);
+
+async function servedIn(cwd, ...words) {
+  const server = spawn(command, ["view", ...words, "--no-browser"], { cwd });
   running.push(server);
-  for await (const line of server.stdout) {
-    const found = /http:\/\/[^#\s]*/.exec(line);
-    assert.ok(found, String(line));
-    return found[0];
-  }
+  const line = await new Promise((resolve) => server.stdout.on("data", (data) => resolve(String(data))));
+  const found = /http:\/\/[^#\s]*/.exec(line);
+  assert.ok(found, line);
+  return found[0];
 }
 
 /** A page that keeps what goes wrong on it; with another path than the server's if one is given. */
@@ -415,6 +416,52 @@ test("a live page in a frame is answered by the page around it", async () => {
   await field("Tool x, mm").fill("5000");
   await field("Tool x, mm").press("Enter");
   await frame.getByRole("alert").filter({ hasText: "reached" }).waitFor();
+});
+
+test("the questions of start are answered on the page, and the machine stands along its program", async () => {
+  const here = mkdtempSync(join(tmpdir(), "start-"));
+  const slot = ["DEF part()", "$BASE=BASE_DATA[3]", "$TOOL=TOOL_DATA[2]", "$VEL.CP=0.2", "LIN {X 0,Y 0,Z 50,A 0,B 0,C 180,S 2,T 35}", "$VEL.CP=0.01", "LIN {X 0,Y 0,Z -1,A 0,B 0,C 180}", "LIN {X 60,Y 0,Z -1,A 0,B 0,C 180}", "$VEL.CP=0.2", "LIN {X 60,Y 0,Z 50,A 0,B 0,C 180}", "END", ""];
+  writeFileSync(join(here, "part.src"), slot.join("\n"));
+  const page = await opened(await servedIn(here));
+  const answer = page.locator("#answer");
+  const given = page.locator("dd");
+  await answer.fill("no_such_robot");
+  await page.keyboard.press("Enter");
+  await page.getByRole("alert").filter({ hasText: "no_such_robot" }).waitFor();
+  const list = ["heavy_6r", "part.src", "0 0 180", "-z", "20", "1800 0 900 30 0 0", "touch-off", "", "300 -100 -50", "100", "0.05"];
+  for (const [i, text] of list.entries()) {
+    await answer.fill(text);
+    await page.keyboard.press("Enter");
+    await page.waitForFunction((count) => document.querySelectorAll("dd").length === count, i + 1);
+  }
+  assert.equal(await given.nth(0).innerText(), "heavy_6r");
+  await page.screenshot({ path: join(shots, "questions.png") });
+  const found = await page.evaluate(`${axe}; axe.run()`);
+  assert.deepEqual(found.violations.map((own) => own.id), []);
+  // The button has the focus: keys are enough.
+  await page.keyboard.press("Enter");
+  await page.locator("#path").getByText("part.src").first().waitFor({ timeout: 30000 });
+  assert.ok(readFileSync(join(here, "job.toml"), "utf8").includes("heavy_6r"));
+  assert.deepEqual(page.wrong, []);
+});
+
+test("files are opened on the page", async () => {
+  const page = await opened(await served("heavy_6r"));
+  await page.getByText("Open files").click();
+  const files = page.getByLabel("Open a model, or a job with its files");
+  const own = (name) => join(folder, "kinetostat-demo", name);
+  // What is missing is named.
+  await files.setInputFiles([own("job.toml")]);
+  await page.getByRole("alert").filter({ hasText: "original.ngc" }).waitFor();
+  page.wrong.length = 0;
+  const transfer = await page.evaluateHandle((list) => {
+    const data = new DataTransfer();
+    list.forEach(([name, text]) => data.items.add(new File([text], name)));
+    return data;
+  }, ["job.toml", "model.toml", "original.ngc"].map((name) => [name, readFileSync(own(name), "utf8")]));
+  await page.dispatchEvent("#stage", "drop", { dataTransfer: transfer });
+  await page.locator("#path").getByText("original.ngc").first().waitFor();
+  assert.deepEqual(page.wrong, []);
 });
 
 test("paper has the picture and the figures", async () => {

@@ -4,6 +4,7 @@
 pub mod chains;
 pub mod checks;
 mod schemas;
+pub mod served;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
