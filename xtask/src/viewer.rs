@@ -1,11 +1,14 @@
 //! `cargo xtask viewer`: the page of `kinetostat view`, built from its sources and tried in a browser.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
 
 use crate::{cargo, root, step};
+
+/// Version with which the server was tried.
+const SCHEMATHESIS: &str = "schemathesis==4.32.5";
 
 /// Builds the page into the repository; `--check` builds it and compares the bytes, then tries it in Chromium.
 ///
@@ -39,12 +42,33 @@ pub fn run(options: &[&str]) -> Result<()> {
     )?;
     let target =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), Into::into);
-    step(
-        "page in a browser",
-        npm(&sources)
-            .args(["test"])
-            .env("KINETOSTAT", target.join("debug/kinetostat")),
-    )
+    let mut test = npm(&sources);
+    test.arg("test")
+        .env("KINETOSTAT", target.join("debug/kinetostat"));
+    if let Some(schemathesis) = schemathesis(&target)? {
+        test.env("SCHEMATHESIS", schemathesis);
+    }
+    step("page in a browser", &mut test)
+}
+
+/// The program that sends requests of every kind, in an environment of its own; none where Python cannot install it.
+fn schemathesis(target: &Path) -> Result<Option<PathBuf>> {
+    let own = target.join("python/schemathesis");
+    let found = own.join("bin/schemathesis");
+    if !found.is_file() {
+        let mut python = Command::new("python3");
+        python.args(["-m", "venv"]).arg(&own);
+        let mut pip = Command::new(own.join("bin/pip"));
+        pip.args(["install", "--quiet", SCHEMATHESIS]);
+        let installed = [&mut python, &mut pip]
+            .into_iter()
+            .all(|command| command.status().is_ok_and(|status| status.success()));
+        if !installed {
+            eprintln!("SKIPPED: requests of every kind, schemathesis could not be installed");
+            return Ok(None);
+        }
+    }
+    Ok(Some(found))
 }
 
 fn npm(folder: &Path) -> Command {

@@ -7,19 +7,19 @@ use serde::{Deserialize, Serialize};
 use crate::lobes::answer::{Best, Point};
 
 /// A request that asks for nothing in particular.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Nothing {}
 
 /// Files that were dropped onto the page.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct OpenRequest {
     pub(crate) files: Vec<DroppedFile>,
 }
 
 /// A file of text.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DroppedFile {
     pub(crate) name: String,
@@ -59,7 +59,7 @@ pub(crate) struct ActuatorRange {
 }
 
 /// A state that is asked for: by joints, by the place of the tool, or as it is at a place of the program; at home without any.
-#[derive(Clone, Default, Deserialize, Serialize)]
+#[derive(Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct StateRequest {
     /// Values of all actuators, mm and deg.
@@ -162,7 +162,7 @@ pub(crate) struct ModeOfState {
 }
 
 /// A load that grows, from 0 to a factor of that of a state.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CurveRequest {
     pub(crate) state: StateRequest,
@@ -217,7 +217,7 @@ pub(crate) struct MapVariable {
 }
 
 /// Places of a grid, the tool turned as in a state and under its load.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MapRequest {
     pub(crate) state: StateRequest,
@@ -237,7 +237,7 @@ pub(crate) struct MapOfState {
 }
 
 /// Frequencies, evenly spaced.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ResponseRequest {
     pub(crate) state: StateRequest,
@@ -261,7 +261,7 @@ pub(crate) struct ResponseOfState {
 }
 
 /// A milling cut and spindle speeds, evenly spaced: as the options of `lobes`.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LobesRequest {
     pub(crate) state: StateRequest,

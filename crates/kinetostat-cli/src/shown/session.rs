@@ -234,8 +234,12 @@ pub(crate) fn answered<R: DeserializeOwned, A: Serialize>(
 }
 
 pub(crate) fn read<R: DeserializeOwned>(request: &[u8]) -> Result<R, Refused> {
-    serde_json::from_slice(request)
-        .map_err(|error| Refused::new("value", format!("the request is not understood: {error}")))
+    // Values alone, in the order of the fields, would be taken for an object.
+    let read = match request.trim_ascii_start().first() {
+        Some(b'{') => serde_json::from_slice(request).map_err(|error| error.to_string()),
+        _ => Err("an object is needed".to_owned()),
+    };
+    read.map_err(|reason| Refused::new("value", format!("the request is not understood: {reason}")))
 }
 
 impl Answers for Session {

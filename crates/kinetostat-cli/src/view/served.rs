@@ -10,11 +10,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::compensate::{self, arguments::CompensateArgs};
 use crate::files::outputs::Existing;
-use crate::shown::answer::OpenRequest;
+use crate::shown::answer::{Nothing, OpenRequest};
 use crate::shown::session::{Session, answered};
 use crate::start::interview::{Interview, JOB};
 use crate::ui::failure::{Answer, Code, Failing};
 use crate::ui::given::Given;
+use crate::view::openapi::openapi;
 
 /// The machine that is shown, and the questions before.
 #[derive(Default)]
@@ -24,9 +25,9 @@ pub(super) struct Served {
 }
 
 /// What the page does with the questions of `start`; nothing of it asks for the next one alone.
-#[derive(Default, Deserialize)]
+#[derive(Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-struct StartRequest {
+pub(super) struct StartRequest {
     /// Answer to the question that is asked.
     answer: Option<String>,
     /// Back to the question before.
@@ -37,7 +38,7 @@ struct StartRequest {
 
 /// Where the questions stand.
 #[derive(Default, Serialize, JsonSchema)]
-pub(crate) struct StartAnswer {
+pub(super) struct StartAnswer {
     /// None: all is known, or this page does not ask.
     question: Option<AskedQuestion>,
     given: Vec<GivenAnswer>,
@@ -168,6 +169,7 @@ impl Served {
 impl Answers for Served {
     fn answer(&self, question: &str, request: &[u8]) -> Option<Result<String, Refused>> {
         match (question, self.session()) {
+            ("openapi", _) => Some(answered(request, |Nothing {}| Ok(openapi()))),
             ("start", _) => Some(answered(request, |request| Ok(self.start(&request)))),
             (OPEN, _) => Some(answered(request, |open: OpenRequest| {
                 self.show(Session::of_dropped(&open.files)?);

@@ -304,6 +304,7 @@ fn absurd_questions_are_answered_in_words() {
         (json!({ "place": 0, "force_n": [1, 0, 0] }), "conflict"),
         (json!({ "force": [1, 0, 0] }), "value"),
         (json!([1, 2]), "value"),
+        (json!([null, null]), "value"),
     ] {
         let (status, answer) = served.state(&request);
         assert_eq!(status, 422, "{request}");

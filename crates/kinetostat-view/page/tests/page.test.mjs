@@ -445,6 +445,16 @@ test("the questions of start are answered on the page, and the machine stands al
   assert.deepEqual(page.wrong, []);
 });
 
+test("no request breaks the server, and refusals are what its description says", { skip: process.env.SCHEMATHESIS ? false : "schemathesis is not installed" }, async () => {
+  const url = await served("heavy_6r");
+  const description = join(folder, "openapi.json");
+  const headers = { "content-type": "application/json" };
+  writeFileSync(description, await (await fetch(`${url}api/openapi`, { method: "POST", headers, body: "{}" })).text());
+  const checks = ["not_a_server_error", "status_code_conformance", "content_type_conformance", "response_schema_conformance", "negative_data_rejection", "unsupported_method"];
+  const said = spawnSync(process.env.SCHEMATHESIS, ["run", description, "--url", url.replace(/\/$/, ""), "--checks", checks.join(","), "--max-examples", "100", "--seed", "20261201"], { cwd: folder, encoding: "utf8" });
+  assert.equal(said.status, 0, said.stdout);
+});
+
 test("files are opened on the page", async () => {
   const page = await opened(await served("heavy_6r"));
   await page.getByText("Open files").click();
