@@ -43,6 +43,7 @@ pub use cut::measured::MeasuredForces;
 pub use cut::measured_stations::{ActsOn, MeasuredAxes, MeasuredReport};
 pub use cut::profile::{ForceAlongPath, ForceOrigin};
 pub use cut::question::{CutQuestion, CuttingTool, EngagementSource, ForceChoice};
+pub use cut::removal::StockAlong;
 pub use cut::station::{ContactArc, CutStation};
 pub use field::ModelField;
 pub use flat_program::FlatProgram;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use kinetostat::{Mechanism, Pose, PostureRequest};
-use kinetostat_machining::{ProgramPlace, Run, Task, analyse, compensate_program};
+use kinetostat_machining::{ProgramPlace, Run, StockAlong, Task, analyse, compensate_program};
 use kinetostat_model::Model;
 
 use crate::files::input_files::InputFiles;
@@ -21,11 +21,14 @@ use crate::ui::progress::Progress;
 
 /// A run along the program of a job.
 pub(crate) struct JobRun {
+    pub(crate) job: JobFile,
     pub(crate) setting: Setting,
     pub(crate) machine: MachineSetup,
     pub(crate) model: Model,
     /// The run, with some of its places on cutting moves.
     pub(crate) run: Run,
+    /// The stock as the program removes it, where the job has one.
+    pub(crate) stock: Option<StockAlong>,
 }
 
 /// The machine at a place.
@@ -60,12 +63,16 @@ impl JobRun {
         })?;
         progress.finish();
         let run = run.map_err(|error| setting.within(error.into()))?;
+        let cut = machine.cut.as_ref();
+        let stock = cut.and_then(|cut| StockAlong::of(&cut.question, read.path()));
         drop(read);
         Ok(Self {
+            job,
             setting,
             machine,
             model,
             run,
+            stock,
         })
     }
 

@@ -300,15 +300,38 @@ pub(crate) struct PathAnswer {
     pub(crate) places: Vec<PlaceOnPath>,
     pub(crate) tolerance_mm: f64,
     pub(crate) headline: Vec<String>,
-    /// Stock around the path.
+    /// True if the job has a stock, of which `stock` says what is left.
+    pub(crate) has_stock: bool,
+    /// Stock around the path, the part and obstacles.
     pub(crate) boxes: Vec<ShownBox>,
+}
+
+/// A place at which the stock is asked for, by its index.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StockRequest {
+    pub(crate) place: usize,
+}
+
+/// What is left of the stock: heights over a grid of the part.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct StockAtPlace {
+    /// First point of the grid at the bottom of the stock, base axes.
+    pub(crate) corner_mm: [f64; 3],
+    /// From a point of the grid to the next along x and y of the part.
+    pub(crate) steps_mm: [[f64; 3]; 2],
+    /// Along z of the part, 1 mm of height.
+    pub(crate) up_mm: [f64; 3],
+    pub(crate) counts: [usize; 2],
+    /// Heights above the bottom, x fastest; none where there is no material.
+    pub(crate) heights: Vec<Option<f32>>,
 }
 
 /// A box, base axes.
 #[derive(Clone, Serialize, JsonSchema)]
 pub(crate) struct ShownBox {
     pub(crate) name: String,
-    /// `stock`.
+    /// `stock`, `part` or `obstacle`.
     pub(crate) kind: &'static str,
     pub(crate) corner_mm: [f64; 3],
     /// From that corner.

@@ -10,4 +10,5 @@ mod opened;
 pub(crate) mod path;
 pub(crate) mod session;
 mod state;
+mod stock;
 pub(crate) mod viewed;

@@ -8,11 +8,13 @@ use kinetostat_model::Model;
 use nalgebra::Vector3;
 
 use crate::job::machine::MachineSetup;
+use crate::job::place_table::PlaceTable;
 use crate::job::setting::Setting;
 use crate::program::aim::Aim;
 use crate::program::places::{JobRun, Standing};
 use crate::program::summary;
 use crate::shown::answer::{PathAnswer, PlaceOnPath, ShownBox};
+use crate::shown::stock::ShownStock;
 use crate::ui::failure::Answer;
 
 /// Places of a path that are shown, about.
@@ -22,6 +24,8 @@ const PLACES: usize = 1500;
 pub(crate) struct AtPlace {
     pub(crate) standing: Standing,
     pub(crate) wrench: Wrench,
+    /// Its move by its index in the path, and the share of it that is done.
+    pub(crate) on_move: (usize, f64),
 }
 
 impl AtPlace {
@@ -37,12 +41,22 @@ pub(crate) struct ShownPath {
     pub(crate) answer: PathAnswer,
     /// One for each place of the answer.
     pub(crate) places: Vec<AtPlace>,
+    /// The stock as it is removed; none of a run that was not made for a page.
+    pub(crate) stock: Option<ShownStock>,
 }
 
 /// Reads a job, compensates its program without writing it, and keeps what is shown: model with the job's tool, and path.
 pub(crate) fn of_job(job: &Path) -> Answer<(Model, ShownPath)> {
     let of_job = JobRun::of(job, None, Aim::Compensate, PLACES)?;
-    let path = ShownPath::of(&of_job.setting, &of_job.machine, &of_job.run);
+    let mut path = ShownPath::of(&of_job.setting, &of_job.machine, &of_job.run);
+    let placement = &of_job.machine.placement;
+    if let Some(table) = &of_job.job.job.place {
+        path.answer
+            .boxes
+            .extend(boxes_of_place(table.get_ref(), placement));
+    }
+    path.answer.has_stock = of_job.stock.is_some();
+    path.stock = of_job.stock.map(|stock| ShownStock::of(stock, placement));
     let mut model = of_job.model;
     model.mechanism = of_job.machine.mechanism;
     Ok((model, path))
@@ -56,6 +70,7 @@ impl ShownPath {
             let at = AtPlace {
                 standing: Standing::at(place, run, mechanism, mechanism)?,
                 wrench: place.wrench,
+                on_move: (place.move_index, place.share),
             };
             Some((at, place_on_path(place)))
         };
@@ -67,9 +82,14 @@ impl ShownPath {
             places: on_path,
             tolerance_mm: run.result.tolerance.allowed_mm,
             headline: headline.lines().map(str::to_owned).collect(),
+            has_stock: false,
             boxes: stock(machine).into_iter().collect(),
         };
-        Self { answer, places }
+        Self {
+            answer,
+            places,
+            stock: None,
+        }
     }
 
     /// The places with the largest errors before and after compensation.
@@ -89,20 +109,37 @@ fn stock(machine: &MachineSetup) -> Option<ShownBox> {
     let EngagementSource::Stock(stock) = &machine.cut.as_ref()?.question.engagement else {
         return None;
     };
-    let [low, high] = stock.space_mm().map(Vector3::from);
-    let Placement {
-        base_from_part,
-        scale,
-        ..
-    } = &machine.placement;
-    let turned = |v: Vector3<f64>| base_from_part.rotation * v * *scale;
-    let edge = |k: usize| turned(Vector3::ith(k, high[k] - low[k])).into();
-    Some(ShownBox {
-        name: "stock".to_owned(),
-        kind: "stock",
-        corner_mm: (base_from_part.translation.vector * 1e3 + turned(low)).into(),
+    Some(box_of_part("stock", stock.space_mm(), &machine.placement))
+}
+
+/// The boxes that a search for a better place keeps apart.
+fn boxes_of_place(table: &PlaceTable, placement: &Placement) -> Vec<ShownBox> {
+    let part = table.part_box_mm.as_ref();
+    let part = part.map(|own| box_of_part("part", *own.get_ref(), placement));
+    let obstacles = table.obstacles.iter().map(|own| {
+        let own = own.get_ref();
+        let edge = |k: usize| Vector3::ith(k, own.to_mm[k] - own.from_mm[k]).into();
+        ShownBox {
+            name: own.name.clone(),
+            kind: "obstacle",
+            corner_mm: own.from_mm,
+            edges_mm: [0, 1, 2].map(edge),
+        }
+    });
+    part.into_iter().chain(obstacles).collect()
+}
+
+/// A box along the axes of the part, mm of the program.
+fn box_of_part(kind: &'static str, corners: [[f64; 3]; 2], placement: &Placement) -> ShownBox {
+    let [low, high] = corners.map(Vector3::from);
+    let edge = |k: usize| (placement.to_metres(&Vector3::ith(k, high[k] - low[k])) * 1e3).into();
+    let corner = placement.base_from_part.translation.vector + placement.to_metres(&low);
+    ShownBox {
+        name: kind.to_owned(),
+        kind,
+        corner_mm: (corner * 1e3).into(),
         edges_mm: [0, 1, 2].map(edge),
-    })
+    }
 }
 
 fn place_on_path(place: &ProgramPlace) -> PlaceOnPath {

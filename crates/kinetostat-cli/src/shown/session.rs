@@ -20,13 +20,13 @@ use crate::place::joints;
 use crate::place::query::place_query_of;
 use crate::shown::answer::{
     ActuatorRange, CurveRequest, Exported, ExportedState, LobesRequest, MachineAnswer, MapRequest,
-    Nothing, ResponseRequest, StateAnswer, StateRequest,
+    Nothing, ResponseRequest, StateAnswer, StateRequest, StockAtPlace, StockRequest,
 };
 use crate::shown::curve::curve_of;
 use crate::shown::cutting::{lobes_of, response_of};
 use crate::shown::map::{map_of, variables};
 use crate::shown::modes::modes_of;
-use crate::shown::path::ShownPath;
+use crate::shown::path::{AtPlace, ShownPath};
 use crate::shown::state::state_of;
 use crate::ui::failure::{Answer, Failing, Failure};
 
@@ -130,12 +130,7 @@ impl Session {
             )?;
             (query.standing()?, given)
         } else if let Some(index) = request.place {
-            let place = self
-                .program
-                .as_ref()
-                .and_then(|program| program.places.get(index));
-            let place = place
-                .ok_or_else(|| ErrorCode::Value.failure(format!("there is no place {index}")))?;
+            let place = self.place(index)?;
             (place.posture(mechanism)?, place.wrench)
         } else {
             let commands = match &request.actuators {
@@ -161,6 +156,20 @@ impl Session {
             };
         }
         Ok(answer)
+    }
+
+    fn stock_at(&self, request: &StockRequest) -> Answer<StockAtPlace> {
+        let place = self.place(request.place)?;
+        let stock = self.program.as_ref().and_then(|own| own.stock.as_ref());
+        let stock = stock.ok_or_else(|| ErrorCode::Missing.failure("the job has no stock"))?;
+        stock.at(place.on_move)
+    }
+
+    /// A place of the program.
+    fn place(&self, index: usize) -> Answer<&AtPlace> {
+        let program = self.program.as_ref();
+        let place = program.and_then(|program| program.places.get(index));
+        place.ok_or_else(|| ErrorCode::Value.failure(format!("there is no place {index}")))
     }
 
     /// Results in a page without a server, at a state: of a path some states, those at its largest errors among them.
@@ -258,6 +267,7 @@ impl Answers for Session {
                 let (posture, wrench) = self.asked(&curve.state)?;
                 curve_of(&posture, &wrench, curve.factor)
             }),
+            "stock" => answered(request, |stock: StockRequest| self.stock_at(&stock)),
             "map" => answered(request, |map: MapRequest| {
                 let (posture, wrench) = self.asked(&map.state)?;
                 map_of(&posture, &wrench, self.model.ratings(), &map)

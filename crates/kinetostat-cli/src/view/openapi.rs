@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use crate::shown::answer::{
     CurveOfState, CurveRequest, LobesOfState, LobesRequest, MachineAnswer, MapOfState, MapRequest,
     ModesOfState, Nothing, OpenRequest, PathAnswer, ResponseOfState, ResponseRequest, StateAnswer,
-    StateRequest,
+    StateRequest, StockAtPlace, StockRequest,
 };
 use crate::view::served::{StartAnswer, StartRequest};
 
@@ -31,6 +31,7 @@ fn all() -> Vec<Described> {
         asked::<Nothing, Option<MachineAnswer>>("machine", "The machine; null before there is one"),
         asked::<Nothing, Option<PathAnswer>>("path", "The path of its program; null without one"),
         asked::<StateRequest, StateAnswer>("state", "The machine in a state under a load"),
+        asked::<StockRequest, StockAtPlace>("stock", "What is left of the stock at a place"),
         asked::<StateRequest, ModesOfState>("modes", "Vibrations about a state"),
         asked::<CurveRequest, CurveOfState>("curve", "Equilibria while a load grows"),
         asked::<MapRequest, MapOfState>("map", "A quantity over places"),

@@ -490,3 +490,67 @@ fn files_that_are_dropped_are_shown() {
     }
     assert!(!elsewhere.path().join("../up.toml").exists());
 }
+
+#[test]
+fn the_stock_is_removed_along_the_program() {
+    let here = here();
+    let job = JOB_OF_A_SLOT;
+    std::fs::write(here.path().join("slot.ngc"), SLOT).expect("written");
+    std::fs::write(here.path().join("job.toml"), job).expect("written");
+    let served = Served::of(here.path(), &["job.toml"]);
+    let (_, path) = served.post("path", &json!({}));
+    assert_eq!(path["has_stock"], true);
+    let boxes = path["boxes"].as_array().expect("a list");
+    let kinds: Vec<_> = boxes
+        .iter()
+        .map(|own| own["kind"].as_str().unwrap_or(""))
+        .collect();
+    assert_eq!(kinds, ["stock", "part", "obstacle"]);
+    assert_eq!(boxes[2]["corner_mm"], json!([-50.0, -50.0, -300.0]));
+    let places = path["places"].as_array().expect("a list").len();
+    let cut = |place: usize| {
+        let (code, stock) = served.post("stock", &json!({ "place": place }));
+        assert_eq!(code, 200, "{stock}");
+        let heights = numbers(&stock["heights"]);
+        let counts = numbers(&stock["counts"]);
+        assert_eq!(heights.len() as f64, counts[0] * counts[1]);
+        heights
+            .into_iter()
+            .filter(|h| (h - 8.0).abs() < 1e-3)
+            .count()
+    };
+    // 2 mm of 10 are cut away, the more the farther the tool has gone; and back again.
+    let (early, late) = (cut(places / 3), cut(places - 1));
+    assert!(0 < early && early < late, "{early} {late}");
+    assert_eq!(cut(places / 3), early);
+    assert_eq!(served.post("stock", &json!({ "place": places })).0, 422);
+}
+
+const SLOT: &str = "\
+G21 G90
+S10000 M3
+G0 X-12 Y0 Z5
+G1 Z-2 F600
+G1 X40
+G0 Z5
+M2
+";
+
+const JOB_OF_A_SLOT: &str = "\
+schema = 1
+model = \"orthoglide\"
+program = \"slot.ngc\"
+[placement]
+part_origin_mm = [0, 0, 100]
+[tool]
+length_mm = 60
+cutter = { shape = \"flat\", diameter_mm = 10, teeth = 2, helix_deg = 30, flute_length_mm = 18 }
+[material]
+name = \"AlMg4.5Mn\"
+[stock]
+block_mm = [[-5, -10, -10], [40, 10, 0]]
+[place]
+x_mm = [-5, 5]
+part_box_mm = [[-5, -10, -10], [40, 10, 0]]
+obstacles = [{ name = \"vice\", from_mm = [-50, -50, -300], to_mm = [50, 50, -200] }]
+";

@@ -15,5 +15,6 @@ pub(crate) mod measured;
 pub(crate) mod measured_stations;
 pub(crate) mod profile;
 pub(crate) mod question;
+pub(crate) mod removal;
 pub(crate) mod station;
 pub(crate) mod walk;

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use crate::cut::question::{CuttingTool, EngagementSource};
 
 /// Chords leave an arc by at most this share of a cell.
-const CHORD: f64 = 0.04;
+pub(crate) const CHORD: f64 = 0.04;
 
 /// The tool at a place of a move.
 pub(crate) struct Met {

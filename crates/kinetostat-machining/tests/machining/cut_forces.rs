@@ -7,7 +7,7 @@ use kinetostat_cutting::{
 };
 use kinetostat_machining::{
     CutFailure, CutFindingKind, CutQuestion, CuttingLoad, CuttingTool, EngagementSource,
-    ForceAlongPath, ForceChoice, LoadAlongPath, Placement, ProgramLoad, Unwatched,
+    ForceAlongPath, ForceChoice, LoadAlongPath, Placement, ProgramLoad, StockAlong, Unwatched,
 };
 use kinetostat_program::{Path, Program, ReadOptions, interpret};
 use kinetostat_testing::Worst;
@@ -471,4 +471,53 @@ fn arcs_of_last_move(text: &str, cell_mm: f64) -> Vec<(f64, f64)> {
     last.iter()
         .map(|station| (station.share, station.arc))
         .collect()
+}
+
+/// What is left at a place: nothing is gone before the program begins, at its end it is what the forces leave behind, and on the way
+/// there is material before the tool and none behind it; forwards and backwards.
+#[test]
+fn the_stock_along_a_program_is_what_it_leaves() {
+    let text = format!("{START}G0 Y10\nG1 Z-2 F600\nG1 X30\nG2 X40 Y20 I0 J10\nG1 X40 Y40\nM2\n");
+    let path = path(&text);
+    let source = block([0.0, 0.0, -5.0], [50.0, 30.0, 0.0]);
+    let question = question(source);
+    let (_, left) = question.along_and_left(&path, &Unwatched).unwrap();
+    let left = left.unwrap();
+    let tops = |stock: &Stock| {
+        let places =
+            (0..50).flat_map(|i| (0..30).map(move |j| [0.5 + f64::from(i), 0.5 + f64::from(j)]));
+        places
+            .map(|[x, y]| stock.top_mm(x, y).unwrap_or(f64::NEG_INFINITY))
+            .collect::<Vec<f64>>()
+    };
+    let mut along = StockAlong::of(&question, &path).unwrap();
+    assert!(
+        tops(&along.at(0, 0.0).unwrap())
+            .iter()
+            .all(|top| *top == 0.0)
+    );
+    let at_end = tops(&along.at(path.moves.len(), 0.0).unwrap());
+    let cut = at_end.iter().filter(|top| **top < -1.9).count();
+    assert!(cut > 100, "{cut}");
+    for (own, wanted) in at_end.iter().zip(tops(&left)) {
+        assert!((own - wanted).abs() < 1e-6, "{own} {wanted}");
+    }
+    // Half of the slot along x, which runs from -10 to 30.
+    let slot = path.moves.iter().position(|m| m.end.x == 30.0).unwrap();
+    let half = along.at(slot, 0.5).unwrap();
+    assert!((half.top_mm(5.0, 10.0).unwrap() + 2.0).abs() < 1e-6);
+    assert_eq!(half.top_mm(20.0, 10.0), Some(0.0));
+    let mut anew = StockAlong::of(&question, &path).unwrap();
+    assert_eq!(tops(&anew.at(slot, 0.5).unwrap()), tops(&half));
+    let stated = EngagementSource::Constant(Engagement::air());
+    assert!(
+        StockAlong::of(
+            &CutQuestion {
+                engagement: stated,
+                ..question
+            },
+            &path
+        )
+        .is_none()
+    );
 }

@@ -105,6 +105,7 @@ export interface Path {
   tolerance_mm: number;
   headline: string[];
   boxes?: SolidBox[];
+  has_stock?: boolean;
 }
 
 export interface Modes {
@@ -184,6 +185,15 @@ export interface Exported {
   states: { place: number; state: State }[];
 }
 
+/** What is left of the stock at a place: heights above its bottom over a grid of the part, x fastest; null where there is nothing. */
+export interface Stock {
+  corner_mm: Vec3;
+  steps_mm: [Vec3, Vec3];
+  up_mm: Vec3;
+  counts: [number, number];
+  heights: (number | null)[];
+}
+
 /** Where the questions of `kinetostat start` stand. */
 export interface Start {
   /** Null: all is known. */
@@ -206,6 +216,7 @@ export interface Questions {
   /** Null: there is no program. */
   path: [Record<string, never>, Path | null];
   state: [StateRequest, State];
+  stock: [{ place: number }, Stock];
   /** Vibrations about a state; the lowest first. */
   modes: [StateRequest, Modes];
   /** Equilibria while the load of a state grows to a factor of it. */

@@ -12,6 +12,7 @@ import { DARK, LIGHT, type Theme } from "./colour";
 import { frame } from "./framing";
 import { Labels, type Label } from "./labels";
 import { deflected, dispose, machine, vector } from "./machine3d";
+import { stockMesh } from "./stock3d";
 import { round, scaleOf, shown, type Store } from "./store";
 
 /** Directions from which the machine is looked at, by the button's word. */
@@ -173,7 +174,14 @@ export class Stage {
     if (look.ellipsoid || look.rotary) {
       this.bodies.add(...ellipsoids(state, this.store, theme));
     }
-    this.boxes().forEach((own) => this.bodies.add(...solid(own, theme)));
+    const { stock } = this.store;
+    const isLeft = stock !== null && look.boxes;
+    this.boxes()
+      .filter((own) => !isLeft || own.kind !== "stock")
+      .forEach((own) => this.bodies.add(...solid(own, theme)));
+    if (isLeft) {
+      this.bodies.add(stockMesh(stock, theme));
+    }
     this.bodies.add(...this.load(state, theme));
     this.scene.add(this.bodies);
     this.overdraw(1);

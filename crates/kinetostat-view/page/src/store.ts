@@ -2,7 +2,7 @@
 
 import { keep } from "./address";
 import { nearest } from "./api";
-import type { Machine, Modes, Path, Scene, Source, State, StateRequest } from "./api";
+import type { Machine, Modes, Path, Scene, Source, State, StateRequest, Stock } from "./api";
 
 export type Colours = "none" | "share" | "load" | "buckling";
 
@@ -40,6 +40,7 @@ export class Store {
   state: State | null = null;
   /** Vibrations about the state; none until they are asked for. */
   modes: Modes | null = null;
+  stock: Stock | null = null;
   error: string | null = null;
   /** The machine at a place of a curve, drawn as it is; none: as it bends under its load. */
   private shape: Scene | null = null;
@@ -77,6 +78,13 @@ export class Store {
     void this.ask();
   }
 
+  /** What is left of the stock at the place that is shown, if there is one and boxes are drawn. */
+  private async stockNow(): Promise<Stock | null> {
+    const { place } = this.request;
+    const isAsked = this.look.boxes && this.source.live && this.path?.has_stock === true;
+    return isAsked && typeof place === "number" ? this.source.ask("stock", { place }) : null;
+  }
+
   showShape(shape: Scene | null): void {
     this.shape = shape;
     this.changed();
@@ -89,7 +97,8 @@ export class Store {
 
   draw(look: Partial<Look>): void {
     this.look = { ...this.look, ...look };
-    if (this.look.swing && this.modes === null) {
+    const lacksStock = look.boxes === true && this.stock === null;
+    if ((this.look.swing && this.modes === null) || lacksStock) {
       void this.ask();
     }
     this.changed();
@@ -120,6 +129,7 @@ export class Store {
       try {
         this.state = await this.source.ask("state", this.request);
         this.shape = null;
+        this.stock = await this.stockNow();
         this.modes = this.look.swing ? await this.source.ask("modes", this.request) : null;
         this.error = null;
       } catch (error) {

@@ -304,6 +304,39 @@ test("boxes of a job are drawn with their names, where there are any", async () 
   assert.deepEqual([...page.wrong, ...without.wrong], []);
 });
 
+test("the stock is drawn as it is left", async () => {
+  const here = mkdtempSync(join(tmpdir(), "stock-"));
+  const job = `schema = 1
+model = "orthoglide"
+program = "slot.ngc"
+[placement]
+part_origin_mm = [0, 0, 100]
+[tool]
+length_mm = 60
+cutter = { shape = "flat", diameter_mm = 10, teeth = 2, helix_deg = 30, flute_length_mm = 18 }
+[material]
+name = "AlMg4.5Mn"
+[stock]
+block_mm = [[-5, -10, -10], [40, 10, 0]]
+`;
+  writeFileSync(join(here, "job.toml"), job);
+  writeFileSync(join(here, "slot.ngc"), "G21 G90\nS10000 M3\nG0 X-12 Y0 Z5\nG1 Z-2 F600\nG1 X40\nG0 Z5\nM2\n");
+  const page = await opened(await servedIn(here, "job.toml"));
+  const left = () => page.waitForResponse((response) => response.url().endsWith("/api/stock")).then((response) => response.json());
+  await page.getByRole("button", { name: "Near path" }).click();
+  const answer = left();
+  await page.locator("#path input[type=range]").fill("1000");
+  const stock = await answer;
+  assert.ok(stock.heights.some((height) => Math.abs(height - 8) < 1e-3) && stock.heights.some((height) => height === 10));
+  // A box that is not drawn is not asked for.
+  await page.getByLabel("Stock, part and obstacles").uncheck();
+  const asked = page.asked.length;
+  await page.locator("#path input[type=range]").fill("900");
+  await page.locator("#path").getByText("Line").waitFor();
+  assert.ok(!page.asked.slice(asked).some((url) => url.endsWith("/api/stock")));
+  assert.deepEqual(page.wrong, []);
+});
+
 /** The file of the job, with all that it holds. */
 function exported() {
   const cwd = join(folder, "kinetostat-demo");
