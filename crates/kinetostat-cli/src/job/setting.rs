@@ -80,6 +80,8 @@ pub(crate) struct Setting {
     pub(crate) chatter: Option<ChatterSetting>,
     /// Uncertain numbers of machine and load, if stated.
     pub(crate) uncertain: Option<Uncertainty>,
+    /// About how many places of the run are looked at; 0 without anybody who does.
+    pub(crate) places: usize,
     /// Files that were read: never overwritten.
     pub(crate) inputs: Vec<PathBuf>,
 }
@@ -368,6 +370,7 @@ pub(crate) fn setting(
         features,
         chatter,
         uncertain,
+        places: 0,
         inputs,
     };
     // `check` and `deflect` take the same job.

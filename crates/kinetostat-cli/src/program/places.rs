@@ -1,9 +1,10 @@
-//! A run along the program of a job for its places: where the machine stands at each of them. Nothing is written.
+//! A run along the program of a job for its places: where the machine stands at each of them. Nothing is written, and uncertain
+//! numbers count as they are.
 
 use std::path::Path;
 
 use kinetostat::{Mechanism, Pose, PostureRequest};
-use kinetostat_machining::{ProgramPlace, Run, StockAlong, Task, analyse, compensate_program};
+use kinetostat_machining::{ProgramPlace, Run, StockAlong};
 use kinetostat_model::Model;
 
 use crate::files::input_files::InputFiles;
@@ -15,9 +16,8 @@ use crate::job::program::read_program;
 use crate::job::setting::{Setting, setting};
 use crate::machine::units::unit_of;
 use crate::program::aim::Aim;
-use crate::program::solve::{forces_of, with_task};
+use crate::program::solve::solve;
 use crate::ui::failure::Answer;
-use crate::ui::progress::Progress;
 
 /// A run along the program of a job.
 pub(crate) struct JobRun {
@@ -47,25 +47,16 @@ impl JobRun {
         let flags = ProgramArgs::default();
         let mut setting = setting(&files, Some(&job), &flags, &WritingFlags::default())?;
         let (machine, model) = machine_of(&mut setting, &files, Some(&job), named, &flags)?;
-        let read = read_program(&setting)?;
-        let progress = Progress::new();
-        let forces = forces_of(&machine, &setting, read.path(), &progress)?;
-        let forces = forces.as_ref();
-        let run = with_task(aim, &machine, &setting, &read, forces, |task| {
-            let task = Task {
-                places,
-                ..task.clone()
-            };
-            match aim {
-                Aim::Analyse => analyse(&task, &progress),
-                Aim::Compensate => compensate_program(&task, &progress),
-            }
-        })?;
-        progress.finish();
-        let run = run.map_err(|error| setting.within(error.into()))?;
-        let cut = machine.cut.as_ref();
-        let stock = cut.and_then(|cut| StockAlong::of(&cut.question, read.path()));
-        drop(read);
+        setting.places = places;
+        setting.uncertain = None;
+        if aim == Aim::Analyse {
+            setting.chatter = None;
+        }
+        let run = solve(aim, &machine, &model, &setting, None)?;
+        let stock = match &machine.cut {
+            Some(cut) => StockAlong::of(&cut.question, read_program(&setting)?.path()),
+            None => None,
+        };
         Ok(Self {
             job,
             setting,

@@ -200,7 +200,7 @@ pub(crate) fn with_task<R>(
             },
             places: match setting.uncertain.is_some() || setting.targets.vtk.is_some() {
                 true => PLACES,
-                false => 0,
+                false => setting.places,
             },
             compliances: setting.targets.vtk.is_some(),
         })

@@ -353,6 +353,14 @@ pub(crate) struct PlaceOnPath {
     pub(crate) error_before_mm: f64,
     /// Error with the compensated program.
     pub(crate) error_after_mm: f64,
+    /// Force (N) or torque (N m) of each actuator.
+    pub(crate) drives: Vec<f64>,
+    /// Largest share of a rated one, where the model states ratings.
+    pub(crate) share_of_rating: Option<f64>,
+    /// Largest share of the way to buckling.
+    pub(crate) share_to_buckling: Option<f64>,
+    /// Depth of the cut by the depth at which it chatters, or by the largest depth that was looked at; where the job judges chatter.
+    pub(crate) depth_by_limit: Option<f64>,
 }
 
 /// Content of a page without a server.

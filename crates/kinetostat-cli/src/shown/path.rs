@@ -72,7 +72,7 @@ impl ShownPath {
                 wrench: place.wrench,
                 on_move: (place.move_index, place.share),
             };
-            Some((at, place_on_path(place)))
+            Some((at, place_on_path(place, run)?))
         };
         let (places, on_path): (Vec<_>, Vec<_>) = run.places.iter().filter_map(shown).unzip();
         let headline = summary::of_run(&run.result);
@@ -142,8 +142,9 @@ fn box_of_part(kind: &'static str, corners: [[f64; 3]; 2], placement: &Placement
     }
 }
 
-fn place_on_path(place: &ProgramPlace) -> PlaceOnPath {
-    PlaceOnPath {
+fn place_on_path(place: &ProgramPlace, run: &Run) -> Option<PlaceOnPath> {
+    let point = run.points.get(place.point)?;
+    Some(PlaceOnPath {
         line: place.line,
         path_mm: place.path_mm,
         time_s: place.time_s,
@@ -151,5 +152,18 @@ fn place_on_path(place: &ProgramPlace) -> PlaceOnPath {
         force_n: place.wrench.force().into(),
         error_before_mm: place.error_before_mm,
         error_after_mm: place.error_after_mm,
-    }
+        drives: point.actuator_force.clone(),
+        share_of_rating: point.most_loaded.map(|most| most.share_of_rating),
+        share_to_buckling: point.share_to_buckling,
+        depth_by_limit: depth_by_limit(place.path_mm, run),
+    })
+}
+
+/// Depth of the cut at a place of the path by its limit: 1 and above chatters.
+fn depth_by_limit(path_mm: f64, run: &Run) -> Option<f64> {
+    let places = run.result.chatter.as_ref()?.places.iter();
+    let judged = places.filter(|place| place.chatters.is_some());
+    let mut own = judged.filter(|place| (place.path_mm[0]..=place.path_mm[1]).contains(&path_mm));
+    let place = own.next()?;
+    Some(place.depth_mm / place.limit_mm.unwrap_or(place.looked_up_to_mm))
 }

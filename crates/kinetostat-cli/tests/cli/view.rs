@@ -554,3 +554,47 @@ x_mm = [-5, 5]
 part_box_mm = [[-5, -10, -10], [40, 10, 0]]
 obstacles = [{ name = \"vice\", from_mm = [-50, -50, -300], to_mm = [50, 50, -200] }]
 ";
+
+#[test]
+fn places_of_a_path_have_loads_and_chatter() {
+    let here = here();
+    let here = here.path();
+    std::fs::write(here.join("slot.ngc"), SLOT).expect("written");
+    // On the arm, with damping, chatter is judged.
+    let on_arm = JOB_OF_A_SLOT
+        .replace("orthoglide", "heavy_6r")
+        .replace("[0, 0, 100]", "[1450, 70, 500]")
+        .replace(
+            "[place]\nx_mm = [-5, 5]",
+            "[load]\nweight = \"all\"\n[chatter]\ndamping_ratio = 0.03\n[place]\nx_mm = [-5, 5]",
+        );
+    std::fs::write(here.join("job.toml"), on_arm).expect("written");
+    let served = Served::of(here, &["job.toml"]);
+    let (_, path) = served.post("path", &json!({}));
+    let places = path["places"].as_array().expect("a list");
+    let words = ["compensate", "job.toml", "--json"];
+    let said = run(here, &words);
+    let said: Value = serde_json::from_str(&said.out).unwrap_or_else(|_| panic!("{}", said.err));
+    let judged = said["chatter"]["places"].as_array().expect("a list");
+    let mut seen = 0;
+    for place in places {
+        assert_eq!(numbers(&place["drives"]).len(), 6);
+        let path_mm = place["path_mm"].as_f64().expect("a number");
+        let own = judged.iter().find(|own| {
+            let range = numbers(&own["path_mm"]);
+            own["chatters"].is_boolean() && range[0] <= path_mm && path_mm <= range[1]
+        });
+        let wanted = own.map(|own| {
+            let limit = own["limit_mm"].as_f64().or(own["looked_up_to_mm"].as_f64());
+            own["depth_mm"].as_f64().expect("a depth") / limit.expect("a limit")
+        });
+        match (place["depth_by_limit"].as_f64(), wanted) {
+            (Some(own), Some(wanted)) => {
+                assert!((own - wanted).abs() < 1e-9 * wanted, "{own} {wanted}");
+                seen += 1;
+            }
+            (own, wanted) => assert_eq!(own, wanted),
+        }
+    }
+    assert!(seen > 10, "{seen}");
+}

@@ -88,6 +88,12 @@ export interface Place {
   force_n: Vec3;
   error_before_mm: number;
   error_after_mm: number;
+  /** Of each actuator, N or N m. */
+  drives?: number[];
+  share_of_rating?: number | null;
+  share_to_buckling?: number | null;
+  /** Depth of the cut by the depth at which it chatters. */
+  depth_by_limit?: number | null;
 }
 
 /** A box in base axes. */

@@ -5,7 +5,7 @@ import "uplot/dist/uPlot.min.css";
 
 import type { Path, Place } from "./api";
 import { element } from "./panel";
-import { shown, type PathColour } from "./store";
+import { shown } from "./store";
 import { length, time, unitOf } from "./units";
 
 export const PROGRAMMED = "var(--programmed)";
@@ -28,7 +28,7 @@ export class ErrorChart {
   private readonly tip = element("div", { class: "tip", hidden: "" });
   private index: number | null = null;
   private isOver: boolean[] = [];
-  private by: PathColour = "before";
+  private by = "before";
 
   constructor(
     private readonly frame: HTMLElement,
@@ -77,7 +77,7 @@ export class ErrorChart {
   }
 
   /** Draws anew: the place that is shown, which places are over tolerance, and by which error. */
-  show(index: number | null, isOver: boolean[], by: PathColour): void {
+  show(index: number | null, isOver: boolean[], by: string): void {
     this.index = index;
     this.isOver = isOver;
     const isOther = by !== this.by;

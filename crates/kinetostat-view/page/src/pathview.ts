@@ -2,7 +2,7 @@
 
 import * as three from "three";
 
-import type { Path, Place } from "./api";
+import type { Path } from "./api";
 import { COMPENSATED, ErrorChart, PROGRAMMED, figuresOf } from "./chart";
 import { byShare, ramp } from "./colour";
 import { vector } from "./machine3d";
@@ -11,20 +11,21 @@ import { PathLine } from "./path3d";
 import { FIT, Playback } from "./playback";
 import { ProgramLines } from "./programlines";
 import type { Stage } from "./stage";
-import { shown, type PathColour, type Store } from "./store";
+import { pathColours, type PathColour } from "./pathcolours";
+import type { Store } from "./store";
 import { length } from "./units";
-
-const COLOURS: Record<PathColour, string> = { before: "error as programmed", after: "error compensated", force: "size of the force" };
 
 export class PathView {
   private readonly lines: ProgramLines;
   private readonly slider = element("input", { type: "range", min: "0", step: "1", "aria-label": "Place along the path" });
   private readonly overall = element("p", { class: "overall" });
   private readonly figures = element("dl", {});
+  private readonly overWords = element("span", {});
   private readonly hint = element("p", { class: "unit" });
   private readonly legend = element("p", { class: "legend pathlegend" });
   private readonly play = button("Play", () => this.playback.toggle(), "Play or stop (space on the slider)");
   private readonly marker = new three.Mesh(new three.SphereGeometry(1, 16, 12), new three.MeshBasicMaterial());
+  private readonly all: PathColour[];
   private readonly chart: ErrorChart;
   private readonly line: PathLine;
   private readonly playback: Playback;
@@ -39,6 +40,7 @@ export class PathView {
   ) {
     place.hidden = false;
     const { places } = path;
+    this.all = pathColours(path, store.machine);
     this.playback = new Playback(
       places,
       (index) => store.change({ place: index }),
@@ -84,9 +86,9 @@ export class PathView {
   }
 
   private colours(): HTMLElement {
-    const select = element("select", { "aria-label": "Colour of the path" }, ...Object.entries(COLOURS).map(([value, text]) => element("option", { value }, text)));
-    select.value = this.store.look.path;
-    select.addEventListener("change", () => this.store.draw({ path: select.value as PathColour }));
+    const select = element("select", { "aria-label": "Colour of the path" }, ...this.all.map((own) => element("option", { value: own.key }, own.words)));
+    select.value = this.colour().key;
+    select.addEventListener("change", () => this.store.draw({ path: select.value }));
     return element("label", {}, "Colour ", select);
   }
 
@@ -101,24 +103,19 @@ export class PathView {
       line.style.borderTop = `2px ${style} ${colour}`;
       return element("span", { class: "legend" }, line, words!);
     });
-    const over = element("span", { class: "legend" }, element("i", { class: "over" }), "over tolerance");
+    const over = element("span", { class: "legend" }, element("i", { class: "over" }), this.overWords);
     return element("div", { class: "row" }, ...each, over);
   }
 
-  private value(place: Place): number {
-    switch (this.store.look.path) {
-      case "before":
-        return place.error_before_mm;
-      case "after":
-        return place.error_after_mm;
-      case "force":
-        return Math.hypot(...place.force_n);
-    }
+  /** What the path is coloured by; a link may name what this one has not. */
+  private colour(): PathColour {
+    return this.all.find((own) => own.key === this.store.look.path) ?? this.all[0]!;
   }
 
   private worst(): number {
     const { places } = this.path;
-    return places.reduce((worst, place, i) => (this.value(place) > this.value(places[worst]!) ? i : worst), 0);
+    const { value } = this.colour();
+    return places.reduce((worst, place, i) => (value(place) > value(places[worst]!) ? i : worst), 0);
   }
 
   private go(index: number): void {
@@ -128,14 +125,15 @@ export class PathView {
 
   /** Shows the path, and the place that is asked for. */
   show(): void {
-    const { places, tolerance_mm } = this.path;
-    const { path: by } = this.store.look;
+    const { places } = this.path;
+    const colour = this.colour();
+    const { key: by, value } = colour;
     const dark = this.stage.dark();
-    const most = places.reduce((sum, place) => Math.max(sum, this.value(place)), 1e-12);
-    const isOver = places.map((place) => (by === "after" ? place.error_after_mm : place.error_before_mm) > tolerance_mm);
+    const most = places.reduce((sum, place) => Math.max(sum, value(place)), 1e-12);
+    const isOver = places.map(colour.isOver);
     if (this.coloured !== `${by} ${dark}`) {
       this.coloured = `${by} ${dark}`;
-      this.line.colour(places.map((place) => this.value(place) / most), isOver, this.stage.theme(), dark);
+      this.line.colour(places.map((place) => value(place) / most), isOver, this.stage.theme(), dark);
       this.explain(most, isOver, dark);
     }
     const index = this.store.request.place ?? null;
@@ -150,8 +148,11 @@ export class PathView {
     }
     this.marker.position.copy(vector(place.position_mm));
     this.marker.scale.setScalar(0.008 * this.stage.glyph());
-    (this.marker.material as three.MeshBasicMaterial).color.set(byShare(this.value(place) / most, dark));
+    (this.marker.material as three.MeshBasicMaterial).color.set(byShare(value(place) / most, dark));
     const figures = figuresOf(place);
+    if (!["before", "after", "force"].includes(by)) {
+      figures.push([`${colour.words.charAt(0).toUpperCase()}${colour.words.slice(1)}`, colour.text(value(place))]);
+    }
     this.slider.value = String(index);
     this.slider.setAttribute("aria-valuetext", figures.map(([label, value]) => `${label} ${value}`).join(", "));
     this.figures.replaceChildren(...figures.flatMap(([label, value]) => [element("dt", {}, label), element("dd", {}, value)]));
@@ -162,14 +163,14 @@ export class PathView {
   /** The numbers of the colours, and how many places are over tolerance. */
   private explain(most: number, isOver: boolean[], dark: boolean): void {
     const { places, tolerance_mm } = this.path;
-    const { path: by } = this.store.look;
-    const text = (value: number) => (by === "force" ? `${shown(value)} N` : length(value));
+    const { key: by, words, text, over } = this.colour();
     const scale = element("i", { class: "ramp" });
     scale.style.background = ramp(dark);
-    this.legend.replaceChildren(`Path, ${COLOURS[by]}: 0`, scale, text(most));
-    const over = isOver.filter((own) => own).length;
+    this.legend.replaceChildren(`Path, ${words}: 0`, scale, text(most));
+    const count = isOver.filter((own) => own).length;
+    this.overWords.textContent = over;
     const kind = by === "after" ? "compensated" : "as programmed";
     const error = places.reduce((sum, place) => Math.max(sum, by === "after" ? place.error_after_mm : place.error_before_mm), 0);
-    this.overall.textContent = `Up to ${length(error)} ${kind}; ${over} of ${places.length} places over tolerance, ${length(tolerance_mm)}.`;
+    this.overall.textContent = `Up to ${length(error)} ${kind}, tolerance ${length(tolerance_mm)}; ${count} of ${places.length} places ${over}.`;
   }
 }

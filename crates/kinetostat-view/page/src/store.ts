@@ -6,9 +6,6 @@ import type { Machine, Modes, Path, Scene, Source, State, StateRequest, Stock } 
 
 export type Colours = "none" | "share" | "load" | "buckling";
 
-/** What the path of a program is coloured by. */
-export type PathColour = "before" | "after" | "force";
-
 /** How a state is drawn. */
 export interface Look {
   /** Factor of the deflection; 0: a round one that shows it. */
@@ -19,7 +16,8 @@ export interface Look {
   names: boolean;
   /** What swings: nothing, the deflection, or a mode by its number from 1. */
   swing: number | null;
-  path: PathColour;
+  /** What the path of a program is coloured by, by its key. */
+  path: string;
   boxes: boolean;
   dark: boolean | null;
 }

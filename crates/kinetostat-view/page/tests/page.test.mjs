@@ -160,7 +160,7 @@ test("a program is followed in chart, lines and space", async () => {
   const page = await opened(url);
   const most = Math.max(...places.map((place) => place.error_before_mm));
   const over = places.filter((place) => place.error_before_mm > tolerance_mm).length;
-  assert.equal(await page.locator(".overall").innerText(), `Up to ${error(most)} as programmed; ${over} of ${places.length} places over tolerance, ${error(tolerance_mm)}.`);
+  assert.equal(await page.locator(".overall").innerText(), `Up to ${error(most)} as programmed, tolerance ${error(tolerance_mm)}; ${over} of ${places.length} places over tolerance.`);
   assert.ok((await page.locator(".pathlegend").innerText()).endsWith(error(most)));
   await page.getByRole("button", { name: "Worst place" }).click();
   await page.locator("li[aria-current]", { hasText: "G3" }).waitFor();
