@@ -1,0 +1,142 @@
+// The form of a computation: a section that opens, its fields, a button that starts and stops it, and the words about it.
+
+import { button, element } from "./panel";
+import { inWords } from "./store";
+
+interface Limits {
+  min?: number;
+  max?: number;
+  /** True for counts. */
+  isWhole?: boolean;
+  /** True if the field may stay empty. */
+  isOptional?: boolean;
+  placeholder?: string;
+}
+
+/** A number that is typed. */
+export function typed(label: string, value: number | "", limits: Limits = {}): HTMLInputElement {
+  const { min, max, placeholder } = limits;
+  const input = element("input", { type: "number", "aria-label": label, value: String(value), step: limits.isWhole ? "1" : "any" });
+  input.required = !limits.isOptional;
+  Object.entries({ min, max, placeholder }).forEach(([name, own]) => own !== undefined && input.setAttribute(name, String(own)));
+  return input;
+}
+
+/** A choice among words; the keys are the values. */
+export function choice(label: string, options: Record<string, string>, value: string): HTMLSelectElement {
+  const select = element("select", { "aria-label": label }, ...Object.entries(options).map(([key, words]) => element("option", { value: key }, words)));
+  select.value = value;
+  return select;
+}
+
+/** A row of a form: a word, its fields, and their unit. */
+export function fields(word: string, unit: string, ...inputs: HTMLElement[]): HTMLElement {
+  return element("div", { class: "fields" }, element("span", {}, word), element("div", {}, ...inputs), element("span", { class: "unit" }, unit));
+}
+
+/** Damping of all modes. A model that states none needs a ratio, and any is an assumption. */
+export class DampingField {
+  readonly input: HTMLInputElement;
+  readonly rows: HTMLElement[];
+
+  constructor(isDamped: boolean) {
+    this.input = typed("Damping ratio", isDamped ? "" : 0.03, { min: 0, max: 1, isOptional: isDamped, placeholder: isDamped ? "the model's" : "" });
+    this.rows = [fields("Damping", "", this.input), ...(isDamped ? [] : [element("p", { class: "unit" }, "The model states no damping: 0.03 of critical in all modes is an assumption.")])];
+  }
+
+  value(): number | null {
+    return this.input.value === "" ? null : this.input.valueAsNumber;
+  }
+}
+
+/** A computation under way. */
+export interface Run {
+  isStopped: boolean;
+}
+
+export class Computation {
+  readonly section: HTMLDetailsElement;
+  /** Where results are shown. */
+  readonly output = element("div", {});
+  private readonly form: HTMLFormElement;
+  private readonly said = element("p", { class: "unit", role: "status" });
+  private readonly alert = element("p", { class: "finding", role: "alert", hidden: "" });
+  private readonly old = element("p", { class: "old", role: "status" });
+  private readonly go: HTMLButtonElement;
+  private run: Run | null = null;
+
+  constructor(
+    title: string,
+    rows: HTMLElement[],
+    private readonly compute: (run: Run) => Promise<void>,
+    private readonly verb = "Compute",
+    others: HTMLElement[] = [],
+  ) {
+    this.go = button(verb, () => void this.start(), `${verb}: ${title}`);
+    this.form = element("form", {}, ...rows, element("div", { class: "row" }, this.go, ...others));
+    this.form.noValidate = true;
+    this.form.addEventListener("submit", (event) => event.preventDefault());
+    this.form.addEventListener("keydown", (event) => {
+      if (event.key === "Enter" && event.target instanceof HTMLInputElement && this.run === null) {
+        event.preventDefault();
+        void this.start();
+      }
+    });
+    this.section = element("details", { class: "drawing computation" }, element("summary", {}, title), this.form, this.alert, this.said, this.old, this.output);
+  }
+
+  say(words: string): void {
+    this.said.textContent = words;
+  }
+
+  /** Says whether the results are those of another state. */
+  mark(isOld: boolean, words = "Of the state before: compute again."): void {
+    const text = isOld ? words : "";
+    if (this.old.textContent !== text) {
+      this.old.textContent = text;
+    }
+  }
+
+  /** Starts the computation, or stops the one under way once its last request is answered. */
+  private async start(): Promise<void> {
+    if (this.run !== null) {
+      this.run.isStopped = true;
+      this.go.textContent = "Stopping";
+      return;
+    }
+    const wrong = this.form.querySelector<HTMLInputElement>("input:invalid");
+    this.refuse(wrong === null ? "" : `${wrong.getAttribute("aria-label")}: ${allowed(wrong)}.`);
+    if (wrong !== null) {
+      wrong.focus();
+      return;
+    }
+    this.run = { isStopped: false };
+    this.go.textContent = "Stop";
+    try {
+      await this.compute(this.run);
+    } catch (error) {
+      this.say("");
+      this.refuse(inWords(error));
+    }
+    this.run = null;
+    this.go.textContent = this.verb;
+  }
+
+  private refuse(words: string): void {
+    this.alert.textContent = words;
+    this.alert.hidden = words === "";
+  }
+}
+
+/** The numbers that a field takes, in words. */
+function allowed({ min, max, step }: HTMLInputElement): string {
+  const number = step === "1" ? "a whole number" : "a number";
+  const bounds = [min === "" ? "" : ` from ${min}`, max === "" ? "" : min === "" ? ` up to ${max}` : ` to ${max}`];
+  return `${number}${bounds.join("")} is needed`;
+}
+
+/** A command about the state that is shown; null where only its job says the state. */
+export function commandOf(cli: string, command: string, options: string): string | null {
+  const state = /^kinetostat deflect (.* --joints .*)$/.exec(cli)?.[1];
+  return state === undefined ? null : `kinetostat ${command} ${state} ${options}`;
+}
