@@ -1,24 +1,12 @@
 // The form of a computation: a section that opens, its fields, a button that starts and stops it, and the words about it.
 
-import { button, element } from "./panel";
-import { inWords } from "./store";
+import { button, copyButton, element } from "./panel";
+import { inWords, type Store } from "./store";
 
-interface Limits {
-  min?: number;
-  max?: number;
-  /** True for counts. */
-  isWhole?: boolean;
-  /** True if the field may stay empty. */
-  isOptional?: boolean;
-  placeholder?: string;
-}
-
-/** A number that is typed. */
-export function typed(label: string, value: number | "", limits: Limits = {}): HTMLInputElement {
-  const { min, max, placeholder } = limits;
-  const input = element("input", { type: "number", "aria-label": label, value: String(value), step: limits.isWhole ? "1" : "any" });
-  input.required = !limits.isOptional;
-  Object.entries({ min, max, placeholder }).forEach(([name, own]) => own !== undefined && input.setAttribute(name, String(own)));
+/** A number that is typed; it is needed where it is not optional, and is a whole one with the step 1. */
+export function typed(label: string, value: number | "", attributes: Record<string, string> = {}, isOptional = false): HTMLInputElement {
+  const input = element("input", { type: "number", step: "any", "aria-label": label, value: String(value), ...attributes });
+  input.required = !isOptional;
   return input;
 }
 
@@ -31,7 +19,7 @@ export function choice(label: string, options: Record<string, string>, value: st
 
 /** A row of a form: a word, its fields, and their unit. */
 export function fields(word: string, unit: string, ...inputs: HTMLElement[]): HTMLElement {
-  return element("div", { class: "fields" }, element("span", {}, word), element("div", {}, ...inputs), element("span", { class: "unit" }, unit));
+  return element("div", { class: "fields" }, element("span", {}, word), element("div", {}, ...inputs), ...(unit === "" ? [] : [element("span", { class: "unit" }, unit)]));
 }
 
 /** Damping of all modes. A model that states none needs a ratio, and any is an assumption. */
@@ -40,7 +28,7 @@ export class DampingField {
   readonly rows: HTMLElement[];
 
   constructor(isDamped: boolean) {
-    this.input = typed("Damping ratio", isDamped ? "" : 0.03, { min: 0, max: 1, isOptional: isDamped, placeholder: isDamped ? "the model's" : "" });
+    this.input = typed("Damping ratio", isDamped ? "" : 0.03, { min: "0", max: "1", placeholder: isDamped ? "the model's" : "" }, isDamped);
     this.rows = [fields("Damping", "", this.input), ...(isDamped ? [] : [element("p", { class: "unit" }, "The model states no damping: 0.03 of critical in all modes is an assumption.")])];
   }
 
@@ -70,7 +58,7 @@ export class Computation {
     rows: HTMLElement[],
     private readonly compute: (run: Run) => Promise<void>,
     private readonly verb = "Compute",
-    others: HTMLElement[] = [],
+    others: HTMLButtonElement[] = [],
   ) {
     this.go = button(verb, () => void this.start(), `${verb}: ${title}`);
     this.form = element("form", {}, ...rows, element("div", { class: "row" }, this.go, ...others));
@@ -97,6 +85,15 @@ export class Computation {
     }
   }
 
+  /** Adds a button that copies the command which says the same about the state that is shown; where only its job says the state, there is none. */
+  offerCommand(store: Store, command: string, options: () => string): void {
+    const state = () => /^kinetostat deflect (.* --joints .*)$/.exec(store.state?.cli ?? "")?.[1];
+    const copy = copyButton("Copy command", () => (this.isComplete() ? `kinetostat ${command} ${state()} ${options()}` : null), (words) => this.say(words));
+    this.go.after(copy);
+    store.onChange(() => (copy.hidden = state() === undefined));
+    copy.hidden = state() === undefined;
+  }
+
   /** Starts the computation, or stops the one under way once its last request is answered. */
   private async start(): Promise<void> {
     if (this.run !== null) {
@@ -104,10 +101,7 @@ export class Computation {
       this.go.textContent = "Stopping";
       return;
     }
-    const wrong = this.form.querySelector<HTMLInputElement>("input:invalid");
-    this.refuse(wrong === null ? "" : `${wrong.getAttribute("aria-label")}: ${allowed(wrong)}.`);
-    if (wrong !== null) {
-      wrong.focus();
+    if (!this.isComplete()) {
       return;
     }
     this.run = { isStopped: false };
@@ -122,6 +116,14 @@ export class Computation {
     this.go.textContent = this.verb;
   }
 
+  /** Goes to the first field with a wrong number, if there is one. */
+  private isComplete(): boolean {
+    const wrong = this.form.querySelector<HTMLInputElement>("input:invalid");
+    this.refuse(wrong === null ? "" : `${wrong.getAttribute("aria-label")}: ${allowed(wrong)}.`);
+    wrong?.focus();
+    return wrong === null;
+  }
+
   private refuse(words: string): void {
     this.alert.textContent = words;
     this.alert.hidden = words === "";
@@ -133,10 +135,4 @@ function allowed({ min, max, step }: HTMLInputElement): string {
   const number = step === "1" ? "a whole number" : "a number";
   const bounds = [min === "" ? "" : ` from ${min}`, max === "" ? "" : min === "" ? ` up to ${max}` : ` to ${max}`];
   return `${number}${bounds.join("")} is needed`;
-}
-
-/** A command about the state that is shown; null where only its job says the state. */
-export function commandOf(cli: string, command: string, options: string): string | null {
-  const state = /^kinetostat deflect (.* --joints .*)$/.exec(cli)?.[1];
-  return state === undefined ? null : `kinetostat ${command} ${state} ${options}`;
 }

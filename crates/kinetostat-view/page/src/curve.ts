@@ -25,7 +25,7 @@ function ticks(low: number, high: number): number[] {
 
 export class CurveView {
   readonly computation: Computation;
-  private readonly factor = typed("Largest factor of the load", 10, { min: 0 });
+  private readonly factor = typed("Largest factor of the load", 10, { min: "0" });
   private readonly slider = element("input", { type: "range", min: "0", value: "0", "aria-label": "Place on the curve" }) as HTMLInputElement;
   private readonly chart = element("div", { class: "curve" });
   private curve: Curve | null = null;

@@ -3,8 +3,8 @@
 import type uPlot from "uplot";
 
 import type { Lobes, LobesRequest, Vec3 } from "./api";
-import { Computation, DampingField, choice, commandOf, fields, typed, type Run } from "./computation";
-import { copyButton, element } from "./panel";
+import { Computation, DampingField, choice, fields, typed, type Run } from "./computation";
+import { element } from "./panel";
 import { axis, css, legend, plot } from "./plot";
 import { shown, type Store } from "./store";
 
@@ -18,24 +18,22 @@ type Cut = Omit<LobesRequest, "state">;
 
 export class LobesView {
   readonly computation: Computation;
-  private readonly speeds = [typed("Slowest spindle speed, rpm", 1000, { min: 1 }), typed("Fastest spindle speed, rpm", 6000, { min: 1 })];
-  private readonly count = typed("Number of speeds", 60, { min: 2, max: 2000, isWhole: true });
-  private readonly teeth = typed("Teeth", 2, { min: 1, max: 100, isWhole: true });
-  private readonly immersion = typed("Immersion: width of cut by diameter", 1, { min: 0, max: 1 });
+  private readonly speeds = [typed("Slowest spindle speed, rpm", 1000, { min: "1" }), typed("Fastest spindle speed, rpm", 6000, { min: "1" })];
+  private readonly count = typed("Number of speeds", 60, { min: "2", max: "2000", step: "1" });
+  private readonly teeth = typed("Teeth", 2, { min: "1", max: "100", step: "1" });
+  private readonly immersion = typed("Immersion: width of cut by diameter", 1, { min: "0", max: "1" });
   private readonly side = choice("Side", { climb: "climb (down)", up: "up (conventional)" }, "climb");
   private readonly feed = ["x", "y", "z"].map((name, k) => typed(`Feed direction ${name}`, k === 0 ? 1 : 0));
   /** They are those of a material and a tool, so that none is proposed; the examples are those of an aluminium alloy. */
   private readonly coefficients = [["Tangential", "800"], ["Radial", "240"], ["Axial", "0"]].map(([name, example]) => typed(`${name} coefficient, N/mm^2`, "", { placeholder: `e.g. ${example}` }));
-  private readonly depth = typed("Largest depth of cut, mm", 5, { min: 0 });
+  private readonly depth = typed("Largest depth of cut, mm", 5, { min: "0" });
   private readonly damping: DampingField;
-  private readonly copy: HTMLButtonElement;
   private chart: uPlot | null = null;
   private points: Point[] = [];
   private of = "";
 
   constructor(private readonly store: Store) {
     this.damping = new DampingField(store.machine.is_damped);
-    this.copy = copyButton("Copy command", () => this.command() ?? "", (words) => this.computation.say(words));
     const rows = [
       fields("Speeds", "rpm", ...this.speeds),
       fields("How many", "", this.count),
@@ -48,11 +46,11 @@ export class LobesView {
       fields("Depth up to", "mm", this.depth),
       ...this.damping.rows,
     ];
-    this.computation = new Computation("Chatter: speeds and depths", rows, (run) => this.compute(run), "Compute", [this.copy]);
+    this.computation = new Computation("Chatter: speeds and depths", rows, (run) => this.compute(run));
+    this.computation.offerCommand(store, "lobes", () => this.options());
   }
 
   show(): void {
-    this.copy.hidden = this.command() === null;
     this.computation.mark(this.points.length > 0 && this.of !== JSON.stringify(this.store.request));
     this.chart?.redraw(false);
   }
@@ -71,13 +69,11 @@ export class LobesView {
     };
   }
 
-  private command(): string | null {
+  /** The cut as options of the command. */
+  private options(): string {
     const cut = this.cut();
     const damping = cut.damping_ratio === null ? "" : `--damping ${cut.damping_ratio} `;
-    // What is not typed yet is left to be typed.
-    const coefficients = this.coefficients.map((own, k) => own.value || ["KT", "KR", "KA"][k]).join(" ");
-    const words = `${damping}--teeth ${cut.teeth} --immersion ${cut.immersion} --${this.side.value} --feed-direction ${cut.feed_direction.join(" ")} --coefficients-n-per-mm2 ${coefficients} --depth-mm ${cut.depth_mm} --rpm ${cut.speed_rpm.join(" ")} ${cut.speeds}`;
-    return commandOf(this.store.state?.cli ?? "", "lobes", words);
+    return `${damping}--teeth ${cut.teeth} --immersion ${cut.immersion} --${this.side.value} --feed-direction ${cut.feed_direction.join(" ")} --coefficients-n-per-mm2 ${cut.coefficients_n_per_mm2.join(" ")} --depth-mm ${cut.depth_mm} --rpm ${cut.speed_rpm.join(" ")} ${cut.speeds}`;
   }
 
   private async compute(run: Run): Promise<void> {
@@ -88,23 +84,23 @@ export class LobesView {
     const pieces = Math.ceil(cut.speeds / PIECE);
     const bound = (piece: number) => Math.round((piece * cut.speeds) / pieces);
     const warnings = new Set<string>();
-    const list = element("div", {});
-    const best = element("p", {});
-    this.of = JSON.stringify(request);
-    this.points = [];
-    this.draw(cut, list, best);
+    const [best, list] = [element("p", {}), element("div", {})];
     this.computation.say(`0 of ${cut.speeds} speeds.`);
-    this.show();
     for (let piece = 0; piece < pieces && !run.isStopped; piece += 1) {
       const [first, end] = [bound(piece), bound(piece + 1)];
       const found = await this.store.source.ask("lobes", { ...cut, state: request, speed_rpm: [speed(first), speed(end - 1)], speeds: end - first });
+      if (piece === 0) {
+        this.points = [];
+        this.of = JSON.stringify(request);
+        this.draw(cut, best, list);
+      }
       this.points.push(...found.points);
       found.warnings.forEach((words) => warnings.add(words));
       list.replaceChildren(...[...warnings].map((words) => element("p", { class: "unit" }, words)));
       best.textContent = bestOf(this.points, cut.depth_mm);
       this.chart?.setData(this.data());
-      const stopped = run.isStopped ? "Stopped: " : "";
-      this.computation.say(`${stopped}${end} of ${cut.speeds} speeds. Damping: ${found.damping}.`);
+      this.show();
+      this.computation.say(`${run.isStopped ? "Stopped: " : ""}${end} of ${cut.speeds} speeds. Damping: ${found.damping}.`);
     }
   }
 
@@ -113,7 +109,7 @@ export class LobesView {
     return [points.map((own) => own.speed_rpm), points.map((own) => own.limit_mm), points.map((own) => own.zeroth_order_mm)];
   }
 
-  private draw(cut: Cut, list: HTMLElement, best: HTMLElement): void {
+  private draw(cut: Cut, best: HTMLElement, list: HTMLElement): void {
     this.chart?.destroy();
     const frame = element("div", { class: "plot", "aria-label": "Largest stable depth of cut in mm over the spindle speed in rpm; the arrow keys read it" });
     const lines = legend([["var(--ink)", "2px solid", "limit"], ["var(--pale)", "1px dashed", "zeroth order, no bound"]]);
@@ -125,7 +121,8 @@ export class LobesView {
       return limits.length === 0 || limits.includes(null) ? cut.depth_mm : Math.min(cut.depth_mm, 1.15 * Math.max(...limits.map(Number)));
     };
     const options = {
-      series: [{}, { stroke: () => css("--ink"), width: 2, points: { show: false } }, { stroke: () => css("--pale"), width: 1, dash: [5, 4], points: { show: false } }],
+      // Points, because a limit between two speeds without one has no line.
+      series: [{}, { stroke: () => css("--ink"), width: 1.5, points: { show: true, size: 4, fill: () => css("--ink") } }, { stroke: () => css("--pale"), width: 1, dash: [5, 4], points: { show: false } }],
       axes: [axis({ label: "spindle speed, rpm", size: 26, values: (_: uPlot, splits: number[]) => splits.map(String) }), axis({ label: "depth, mm", size: 34 })],
       scales: { x: { time: false, range: (): [number, number] => cut.speed_rpm }, y: { range: (): [number, number] => [0, highest()] } },
       hooks: { drawAxes: [(own: uPlot) => shade(own, this.points)] },
@@ -146,8 +143,7 @@ function wordsOf({ speed_rpm, limit_mm, kind, chatter_hz, stable_mm, zeroth_orde
 function bestOf(points: Point[], depth: number): string {
   const open = points.filter((own) => own.limit_mm === null);
   if (open.length > 0) {
-    const speeds = open.map((own) => own.speed_rpm);
-    return `At ${open.length} of ${points.length} speeds, ${Math.min(...speeds).toFixed(0)} to ${Math.max(...speeds).toFixed(0)} rpm, no limit was found up to the ${shown(depth)} mm that were looked at.`;
+    return `No limit was found up to ${shown(depth)} mm, the depth that was looked at, at ${open.length} of ${points.length} speeds; the slowest is ${open[0]!.speed_rpm.toFixed(0)} rpm.`;
   }
   const best = points.reduce((a, b) => (b.limit_mm! > a.limit_mm! ? b : a));
   return `Best speed: ${best.speed_rpm.toFixed(0)} rpm, stable up to ${shown(best.limit_mm!)} mm.`;
@@ -170,9 +166,8 @@ function shade(own: uPlot, points: Point[]): void {
     const middle = (other: Point | undefined) => (other === undefined ? here : (here + x(other.speed_rpm)) / 2);
     for (const other of [last, next].filter((one) => one !== undefined)) {
       // Between a limit and none nothing is known but the two.
-      const isSame = (other.limit_mm === null) === (point.limit_mm === null);
-      const halfway = isSame ? (y(point.limit_mm) + y(other.limit_mm)) / 2 : y(point.limit_mm);
-      trapezium(here, y(point.limit_mm), middle(other), halfway);
+      const isOneOpen = (other.limit_mm === null) !== (point.limit_mm === null);
+      trapezium(here, y(point.limit_mm), middle(other), isOneOpen ? y(point.limit_mm) : (y(point.limit_mm) + y(other.limit_mm)) / 2);
     }
     point.stable_mm.slice(1).forEach(([low, high]) => trapezium(middle(last), y(high), middle(next), y(high), y(low)));
   });

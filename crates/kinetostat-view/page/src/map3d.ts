@@ -6,103 +6,63 @@ import type { Vec3 } from "./api";
 import type { Scale } from "./colour";
 import { dispose, vector } from "./machine3d";
 
-/** Places of planes across the axis `normal`, in lines along the axis `along`; x runs fastest. */
-export interface Grid {
-  from: Vec3;
-  to: Vec3;
-  counts: Vec3;
-  along: number;
-  across: number;
-  normal: number;
+/** A place of a map; without a value it is not asked yet (undefined), or has none (null). */
+export interface MapPlace {
+  at: Vec3;
+  value?: number | null;
 }
 
-/** Where a place of a grid is, mm. */
-export function placeOf({ from, to, counts }: Grid, at: Vec3): Vec3 {
-  return at.map((i, k) => (counts[k]! > 1 ? from[k]! + ((to[k]! - from[k]!) * i) / (counts[k]! - 1) : from[k]!)) as Vec3;
-}
-
-export function indexOf({ counts }: Grid, at: Vec3): number {
-  return at[0] + counts[0] * (at[1] + counts[1] * at[2]);
-}
-
-/** A place of a grid by its numbers along the axes of the planes. */
-export function inGrid(grid: Grid, along: number, across: number, plane: number): Vec3 {
-  const at: Vec3 = [0, 0, 0];
-  [at[grid.along], at[grid.across], at[grid.normal]] = [along, across, plane];
-  return at;
-}
+/** Places by plane, by line of the plane, and along the line. */
+export type MapPlanes = MapPlace[][][];
 
 /** The corners of a plane, around it. */
-export function cornersOf(grid: Grid, plane: number): three.Vector3[] {
-  const [wide, high] = [grid.counts[grid.along]! - 1, grid.counts[grid.across]! - 1];
-  return [[0, 0], [wide, 0], [wide, high], [0, high]].map(([i, j]) => vector(placeOf(grid, inGrid(grid, i!, j!, plane))));
+export function cornersOf(plane: MapPlace[][]): three.Vector3[] {
+  const [first, last] = [plane[0]!, plane[plane.length - 1]!];
+  return [first[0], first[first.length - 1], last[last.length - 1], last[0]].map((place) => vector(place!.at));
 }
 
 export class MapCells {
   readonly group = new three.Group();
-  private cells: three.Mesh | null = null;
-  private grid: Grid | null = null;
+  private mesh: three.Mesh | null = null;
+  /** Corners of the cells that are drawn; each cell has two triangles. */
+  private cells: (MapPlace & { value: number })[][] = [];
 
-  /** Draws the cells whose four corners have values, and the edges of the planes, within which an empty place cannot be reached. */
-  show(grid: Grid, values: (number | null | undefined)[], scale: Scale, dark: boolean, edge: string): void {
+  /** Draws the cells whose four corners have values, and the edges of the planes, within which an empty place has none. */
+  show(planes: MapPlanes, scale: Scale, dark: boolean, edge: string): void {
     this.clear();
-    this.grid = grid;
-    const positions: number[] = [];
-    const shares: number[] = [];
-    const edges: three.Vector3[] = [];
-    const [wide, high, planes] = [grid.counts[grid.along]!, grid.counts[grid.across]!, grid.counts[grid.normal]!];
-    for (let plane = 0; plane < planes; plane += 1) {
-      const outer = cornersOf(grid, plane);
-      edges.push(...outer.flatMap((corner, k) => [corner, outer[(k + 1) % 4]!]));
-      for (let j = 0; j + 1 < high; j += 1) {
-        for (let i = 0; i + 1 < wide; i += 1) {
-          const corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(([a, b]) => inGrid(grid, a!, b!, plane));
-          const found = corners.map((at) => values[indexOf(grid, at)]);
-          if (found.every((x) => typeof x === "number")) {
-            for (const k of [0, 1, 2, 0, 2, 3]) {
-              positions.push(...placeOf(grid, corners[k]!));
-              shares.push(scale.share(found[k] as number), 0.5);
-            }
-          }
-        }
-      }
-    }
+    const all = planes.flatMap((plane) => plane.slice(1).flatMap((line, j) => line.slice(1).map((place, i) => [plane[j]![i]!, plane[j]![i + 1]!, place, line[i]!])));
+    this.cells = all.filter((cell) => cell.every((place) => typeof place.value === "number")) as typeof this.cells;
+    const corners = this.cells.flatMap((cell) => [0, 1, 2, 0, 2, 3].map((k) => cell[k]!));
     const geometry = new three.BufferGeometry();
-    geometry.setAttribute("position", new three.Float32BufferAttribute(positions, 3));
+    geometry.setAttribute("position", new three.Float32BufferAttribute(corners.flatMap((place) => place.at), 3));
     // Values are interpolated, and then coloured: a mixture of two colours would be no colour of the scale.
-    geometry.setAttribute("uv", new three.Float32BufferAttribute(shares, 2));
-    const material = new three.MeshBasicMaterial({ map: texture(scale, dark), transparent: true, opacity: planes > 1 ? 0.55 : 0.8, side: three.DoubleSide, depthWrite: false });
-    this.cells = new three.Mesh(geometry, material);
-    const frame = new three.LineSegments(new three.BufferGeometry().setFromPoints(edges), new three.LineBasicMaterial({ color: edge }));
-    this.group.add(this.cells, frame);
+    geometry.setAttribute("uv", new three.Float32BufferAttribute(corners.flatMap((place) => [scale.share(place.value), 0.5]), 2));
+    const material = new three.MeshBasicMaterial({ map: texture(scale, dark), transparent: true, opacity: planes.length > 1 ? 0.55 : 0.8, side: three.DoubleSide, depthWrite: false });
+    this.mesh = new three.Mesh(geometry, material);
+    const edges = planes.map(cornersOf).flatMap((outer) => outer.flatMap((corner, k) => [corner, outer[(k + 1) % 4]!]));
+    this.group.add(this.mesh, new three.LineSegments(new three.BufferGeometry().setFromPoints(edges), new three.LineBasicMaterial({ color: edge })));
   }
 
   /** The place nearest to where a ray meets a cell first. */
-  pick(ray: three.Raycaster): Vec3 | null {
-    const { grid } = this;
-    const hit = this.cells === null ? undefined : ray.intersectObject(this.cells)[0];
-    if (grid === null || hit === undefined) {
-      return null;
-    }
-    const steps = grid.counts.map((n, k) => (n > 1 ? (grid.to[k]! - grid.from[k]!) / (n - 1) : Infinity));
-    return hit.point.toArray().map((x, k) => Math.round((x - grid.from[k]!) / steps[k]!)) as Vec3;
+  pick(ray: three.Raycaster): MapPlace | null {
+    const hit = this.mesh === null ? undefined : ray.intersectObject(this.mesh)[0];
+    const cell = this.cells[Math.floor((hit?.faceIndex ?? 0) / 2)];
+    const far = (place: MapPlace) => hit!.point.distanceTo(vector(place.at));
+    return hit === undefined || cell === undefined ? null : cell.reduce((a, b) => (far(b) < far(a) ? b : a));
   }
 
   clear(): void {
-    (this.cells?.material as three.MeshBasicMaterial | undefined)?.map?.dispose();
+    (this.mesh?.material as three.MeshBasicMaterial | undefined)?.map?.dispose();
     [...this.group.children].forEach(dispose);
-    this.cells = null;
+    this.mesh = null;
   }
 }
 
-/** The colours of a scale, the lowest value on the left. */
+/** The colours of a scale, those of the lowest value first. */
 function texture(scale: Scale, dark: boolean): three.DataTexture {
-  const count = 256;
-  const pixels = Array.from({ length: count }, (_, i) => [...scale.colour(i / (count - 1), dark).matchAll(/\d+/g)].map(Number));
-  const made = new three.DataTexture(new Uint8Array(pixels.flatMap((rgb) => [...rgb, 255])), count, 1);
+  const pixels = Array.from({ length: 256 }, (_, i) => [...[...scale.colour(i / 255, dark).matchAll(/\d+/g)].map(Number), 255]);
+  const made = new three.DataTexture(new Uint8Array(pixels.flat()), 256, 1);
   made.colorSpace = three.SRGBColorSpace;
-  made.magFilter = three.LinearFilter;
-  made.minFilter = three.LinearFilter;
-  made.needsUpdate = true;
+  [made.magFilter, made.minFilter, made.needsUpdate] = [three.LinearFilter, three.LinearFilter, true];
   return made;
 }

@@ -28,14 +28,15 @@ export function button(words: string, action: () => void, title = words): HTMLBu
   return made;
 }
 
-/** A button that copies a text; where the browser refuses, it is shown. */
-export function copyButton(words: string, text: () => string, say: (words: string) => void): HTMLButtonElement {
+/** A button that copies a text, if there is one; where the browser refuses, the text is shown. */
+export function copyButton(words: string, text: () => string | null, say: (words: string) => void): HTMLButtonElement {
   return button(words, () => {
-    const ask = () => void window.prompt("To be copied:", text());
-    if (navigator.clipboard === undefined) {
+    const own = text();
+    const ask = () => void window.prompt("To be copied:", own ?? "");
+    if (own !== null && navigator.clipboard === undefined) {
       ask();
-    } else {
-      navigator.clipboard.writeText(text()).then(() => say("copied"), ask);
+    } else if (own !== null) {
+      navigator.clipboard.writeText(own).then(() => say("copied"), ask);
     }
   });
 }

@@ -27,7 +27,7 @@ export function plot(frame: HTMLElement, options: Omit<uPlot.Options, "width" | 
     }
     tip.replaceChildren(...words(idx).map((line) => element("div", {}, line)));
     const beside = left > over.clientWidth / 2 ? left - tip.offsetWidth - 12 : left + 12;
-    tip.style.left = `${Math.max(over.offsetLeft + beside, 0)}px`;
+    tip.style.left = `${Math.max(Math.min(over.offsetLeft + beside, frame.clientWidth - tip.offsetWidth), 0)}px`;
     tip.style.top = "4px";
   };
   const fixed = { padding: [8, 18, 0, 0] as uPlot.Padding, legend: { show: false }, cursor: { y: false, drag: { x: false, y: false } } };

@@ -3,8 +3,8 @@
 import type uPlot from "uplot";
 
 import type { Response } from "./api";
-import { Computation, DampingField, commandOf, fields, typed, type Run } from "./computation";
-import { copyButton, element } from "./panel";
+import { Computation, DampingField, fields, typed, type Run } from "./computation";
+import { element } from "./panel";
 import { axis, css, legend, plot } from "./plot";
 import type { Stage } from "./stage";
 import { shown, type Store } from "./store";
@@ -18,10 +18,9 @@ const STYLES = ["2px solid", "2px dashed", "2px dotted"];
 
 export class ResponseView {
   readonly computation: Computation;
-  private readonly from = typed("Lowest frequency, Hz", 1, { min: 0 });
-  private readonly to = typed("Highest frequency, Hz", 200, { min: 0 });
+  private readonly from = typed("Lowest frequency, Hz", 1, { min: "0" });
+  private readonly to = typed("Highest frequency, Hz", 200, { min: "0" });
   private readonly damping: DampingField;
-  private readonly copy: HTMLButtonElement;
   private chart: uPlot | null = null;
   private legend: HTMLElement | null = null;
   private of = "";
@@ -31,21 +30,18 @@ export class ResponseView {
     private readonly stage: Stage,
   ) {
     this.damping = new DampingField(store.machine.is_damped);
-    this.copy = copyButton("Copy command", () => this.command() ?? "", (words) => this.computation.say(words));
     const rows = [fields("Frequencies", "Hz", this.from, this.to), ...this.damping.rows];
-    this.computation = new Computation("Response of the tip", rows, (run) => this.compute(run), "Compute", [this.copy]);
+    this.computation = new Computation("Response of the tip", rows, (run) => this.compute(run));
+    this.computation.offerCommand(store, "frf", () => {
+      const ratio = this.damping.value();
+      return `${ratio === null ? "" : `--damping ${ratio} `}--frequencies ${this.from.value} ${this.to.value} ${COUNT}`;
+    });
   }
 
   show(): void {
-    this.copy.hidden = this.command() === null;
     this.computation.mark(this.chart !== null && this.of !== JSON.stringify(this.store.request));
     this.chart?.redraw(false);
     this.legend?.replaceChildren(...this.lines());
-  }
-
-  private command(): string | null {
-    const ratio = this.damping.value();
-    return commandOf(this.store.state?.cli ?? "", "frf", `${ratio === null ? "" : `--damping ${ratio} `}--frequencies ${this.from.value} ${this.to.value} ${COUNT}`);
   }
 
   private async compute(run: Run): Promise<void> {
