@@ -30,7 +30,7 @@ function mixed(list: readonly (readonly [number, number, number])[], share: numb
   return `rgb(${a.map((x, k) => Math.round(x + (at - first) * (b[k]! - x))).join(", ")})`;
 }
 
-/** Worse, neutral and better on each side of zero; the middle is near the background. */
+/** Diverging colours from unfavourable to favourable; the middle is near the background. */
 const DIVERGING = {
   light: [[165, 15, 30], [225, 125, 95], [235, 232, 228], [100, 160, 205], [15, 75, 150]],
   dark: [[255, 165, 130], [185, 70, 60], [62, 66, 74], [60, 115, 175], [150, 205, 255]],
@@ -48,7 +48,7 @@ export interface Scale {
 /** Ratio of the most to the least value above which a scale is logarithmic. */
 const WIDE = 50;
 
-/** The scale of values: bright where they are worse; about zero, in two colours, where there are values on both sides. */
+/** Scale of values: bright for unfavourable ones; with both signs, diverging from zero. */
 export function scaleOver(least: number, most: number, isHighWorse: boolean): Scale {
   const [low, high] = [least, most];
   const worse = (share: number) => (isHighWorse ? share : 1 - share);

@@ -1,9 +1,12 @@
-// The form of a computation: a section that opens, its fields, a button that starts and stops it, and the words about it.
+// Form of a computation: a section that opens, its fields, a button that starts and stops it, and its messages.
 
+import type uPlot from "uplot";
+
+import type { StateRequest } from "./api";
 import { button, copyButton, element } from "./panel";
 import { inWords, type Store } from "./store";
 
-/** A number that is typed; it is needed where it is not optional, and is a whole one with the step 1. */
+/** Field for a number; the step 1 makes it a whole one. */
 export function typed(label: string, value: number | "", attributes: Record<string, string> = {}, isOptional = false): HTMLInputElement {
   const input = element("input", { type: "number", step: "any", "aria-label": label, value: String(value), ...attributes });
   input.required = !isOptional;
@@ -22,7 +25,7 @@ export function fields(word: string, unit: string, ...inputs: HTMLElement[]): HT
   return element("div", { class: "fields" }, element("span", {}, word), element("div", {}, ...inputs), ...(unit === "" ? [] : [element("span", { class: "unit" }, unit)]));
 }
 
-/** Damping of all modes. A model that states none needs a ratio, and any is an assumption. */
+/** Damping ratio of all modes. A model without damping needs one, and any value is an assumption. */
 export class DampingField {
   readonly input: HTMLInputElement;
   readonly rows: HTMLElement[];
@@ -37,23 +40,27 @@ export class DampingField {
   }
 }
 
-/** A computation under way. */
+/** A running computation, with the state that was current at its start. */
 export interface Run {
   isStopped: boolean;
+  readonly state: StateRequest;
 }
 
 export class Computation {
   readonly section: HTMLDetailsElement;
-  /** Where results are shown. */
+  /** Container of the results; it is emptied when another computation begins. */
   readonly output = element("div", {});
+  chart: uPlot | null = null;
   private readonly form: HTMLFormElement;
   private readonly said = element("p", { class: "unit", role: "status" });
   private readonly alert = element("p", { class: "finding", role: "alert", hidden: "" });
   private readonly old = element("p", { class: "old", role: "status" });
   private readonly go: HTMLButtonElement;
   private run: Run | null = null;
+  private of = "";
 
   constructor(
+    private readonly store: Store,
     title: string,
     rows: HTMLElement[],
     private readonly compute: (run: Run) => Promise<void>,
@@ -77,16 +84,30 @@ export class Computation {
     this.said.textContent = words;
   }
 
-  /** Says whether the results are those of another state. */
-  mark(isOld: boolean, words = "Of the state before: compute again."): void {
+  /** True if the results belong to another state. */
+  isOld(): boolean {
+    return this.output.childElementCount > 0 && this.of !== JSON.stringify(this.store.request);
+  }
+
+  /** Marks results of another state, and draws a chart in the colours of now. */
+  show(isOld = this.isOld(), words = "Of the state before: compute again."): void {
     const text = isOld ? words : "";
     if (this.old.textContent !== text) {
       this.old.textContent = text;
     }
+    this.chart?.redraw(false);
   }
 
-  /** Adds a button that copies the command which says the same about the state that is shown; where only its job says the state, there is none. */
-  offerCommand(store: Store, command: string, options: () => string): void {
+  clear(): void {
+    this.chart?.destroy();
+    this.chart = null;
+    this.output.replaceChildren();
+    this.say("");
+  }
+
+  /** Adds a button that copies the equivalent command for the current state. States of a job have no such command: its tool is not an option of `frf` and `lobes`. */
+  offerCommand(command: string, options: () => string): void {
+    const { store } = this;
     const state = () => /^kinetostat deflect (.* --joints .*)$/.exec(store.state?.cli ?? "")?.[1];
     const copy = copyButton("Copy command", () => (this.isComplete() ? `kinetostat ${command} ${state()} ${options()}` : null), (words) => this.say(words));
     this.go.after(copy);
@@ -104,7 +125,11 @@ export class Computation {
     if (!this.isComplete()) {
       return;
     }
-    this.run = { isStopped: false };
+    this.clear();
+    this.run = { isStopped: false, state: this.store.request };
+    this.of = JSON.stringify(this.run.state);
+    this.say(`${this.verb} ...`);
+    this.show();
     this.go.textContent = "Stop";
     try {
       await this.compute(this.run);
@@ -116,7 +141,7 @@ export class Computation {
     this.go.textContent = this.verb;
   }
 
-  /** Goes to the first field with a wrong number, if there is one. */
+  /** True if all fields have valid numbers; else the first invalid one gets the focus and a message. */
   private isComplete(): boolean {
     const wrong = this.form.querySelector<HTMLInputElement>("input:invalid");
     this.refuse(wrong === null ? "" : `${wrong.getAttribute("aria-label")}: ${allowed(wrong)}.`);
@@ -130,7 +155,7 @@ export class Computation {
   }
 }
 
-/** The numbers that a field takes, in words. */
+/** Message with the numbers that a field accepts. */
 function allowed({ min, max, step }: HTMLInputElement): string {
   const number = step === "1" ? "a whole number" : "a number";
   const bounds = [min === "" ? "" : ` from ${min}`, max === "" ? "" : min === "" ? ` up to ${max}` : ` to ${max}`];

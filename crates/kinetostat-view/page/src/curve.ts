@@ -29,22 +29,17 @@ export class CurveView {
   private readonly slider = element("input", { type: "range", min: "0", value: "0", "aria-label": "Place on the curve" }) as HTMLInputElement;
   private readonly chart = element("div", { class: "curve" });
   private curve: Curve | null = null;
-  private of = "";
 
   constructor(private readonly store: Store) {
-    this.computation = new Computation("Let the load grow", [fields("From 0 to", "times", this.factor)], (run) => this.follow(run), "Follow");
-    this.computation.output.append(this.chart, this.slider);
-    this.slider.hidden = true;
+    this.computation = new Computation(store, "Let the load grow", [fields("From 0 to", "times", this.factor)], (run) => this.follow(run), "Follow");
     this.slider.addEventListener("input", () => this.choose(this.places()[this.slider.valueAsNumber] ?? null));
   }
 
   /** A curve is that of one posture under one load: with another one it goes. */
   show(): void {
-    if (this.curve !== null && this.of !== JSON.stringify(this.store.request)) {
+    if (this.computation.isOld()) {
       this.curve = null;
-      this.chart.replaceChildren();
-      this.computation.say("");
-      this.slider.hidden = true;
+      this.computation.clear();
     }
   }
 
@@ -53,17 +48,14 @@ export class CurveView {
   }
 
   private async follow(run: Run): Promise<void> {
-    this.computation.say("Following ...");
-    const { request } = this.store;
-    const curve = await this.store.source.ask("curve", { state: request, factor: this.factor.valueAsNumber });
+    const curve = await this.store.source.ask("curve", { state: run.state, factor: this.factor.valueAsNumber });
     if (run.isStopped) {
       this.computation.say("Stopped.");
       return;
     }
     this.curve = curve;
-    this.of = JSON.stringify(request);
     this.slider.max = String(this.places().length - 1);
-    this.slider.hidden = false;
+    this.computation.output.append(this.chart, this.slider);
     const more = this.curve.more_branches ? " There are more branches than these." : "";
     const words = this.curve.marks.map((mark) => `${mark.words} at ${shown(mark.factor)} times the load`);
     const all = words.length > 0 ? words.join("; ") : "no special point";

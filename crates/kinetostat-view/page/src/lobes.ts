@@ -1,4 +1,4 @@
-// At which spindle speeds and depths a milling cut chatters.
+// Stability lobes: largest stable depth of a milling cut over the spindle speed.
 
 import type uPlot from "uplot";
 
@@ -8,12 +8,12 @@ import { element } from "./panel";
 import { axis, css, legend, plot } from "./plot";
 import { shown, type Store } from "./store";
 
-/** Speeds of one request at most: what is asked for can be drawn, and stopped, soon. */
+/** Most speeds of one request, so that results are drawn, and a stop takes effect, early. */
 const PIECE = 8;
 
 type Point = Lobes["points"][number];
 
-/** What is cut, at which speeds. */
+/** Cut and spindle speeds of all requests. */
 type Cut = Omit<LobesRequest, "state">;
 
 export class LobesView {
@@ -24,13 +24,11 @@ export class LobesView {
   private readonly immersion = typed("Immersion: width of cut by diameter", 1, { min: "0", max: "1" });
   private readonly side = choice("Side", { climb: "climb (down)", up: "up (conventional)" }, "climb");
   private readonly feed = ["x", "y", "z"].map((name, k) => typed(`Feed direction ${name}`, k === 0 ? 1 : 0));
-  /** They are those of a material and a tool, so that none is proposed; the examples are those of an aluminium alloy. */
+  /** Without defaults, because they belong to a material and a tool; the placeholders are examples of an aluminium alloy. */
   private readonly coefficients = [["Tangential", "800"], ["Radial", "240"], ["Axial", "0"]].map(([name, example]) => typed(`${name} coefficient, N/mm^2`, "", { placeholder: `e.g. ${example}` }));
   private readonly depth = typed("Largest depth of cut, mm", 5, { min: "0" });
   private readonly damping: DampingField;
-  private chart: uPlot | null = null;
   private points: Point[] = [];
-  private of = "";
 
   constructor(private readonly store: Store) {
     this.damping = new DampingField(store.machine.is_damped);
@@ -46,13 +44,8 @@ export class LobesView {
       fields("Depth up to", "mm", this.depth),
       ...this.damping.rows,
     ];
-    this.computation = new Computation("Chatter: speeds and depths", rows, (run) => this.compute(run));
-    this.computation.offerCommand(store, "lobes", () => this.options());
-  }
-
-  show(): void {
-    this.computation.mark(this.points.length > 0 && this.of !== JSON.stringify(this.store.request));
-    this.chart?.redraw(false);
+    this.computation = new Computation(store, "Chatter: speeds and depths", rows, (run) => this.compute(run));
+    this.computation.offerCommand("lobes", () => this.options());
   }
 
   private cut(): Cut {
@@ -77,7 +70,6 @@ export class LobesView {
   }
 
   private async compute(run: Run): Promise<void> {
-    const { request } = this.store;
     const cut = this.cut();
     const [low, high] = cut.speed_rpm;
     const speed = (i: number) => low + ((high - low) * i) / (cut.speeds - 1);
@@ -88,18 +80,16 @@ export class LobesView {
     this.computation.say(`0 of ${cut.speeds} speeds.`);
     for (let piece = 0; piece < pieces && !run.isStopped; piece += 1) {
       const [first, end] = [bound(piece), bound(piece + 1)];
-      const found = await this.store.source.ask("lobes", { ...cut, state: request, speed_rpm: [speed(first), speed(end - 1)], speeds: end - first });
+      const found = await this.store.source.ask("lobes", { ...cut, state: run.state, speed_rpm: [speed(first), speed(end - 1)], speeds: end - first });
       if (piece === 0) {
         this.points = [];
-        this.of = JSON.stringify(request);
         this.draw(cut, best, list);
       }
       this.points.push(...found.points);
       found.warnings.forEach((words) => warnings.add(words));
       list.replaceChildren(...[...warnings].map((words) => element("p", { class: "unit" }, words)));
       best.textContent = bestOf(this.points, cut.depth_mm);
-      this.chart?.setData(this.data());
-      this.show();
+      this.computation.chart?.setData(this.data());
       this.computation.say(`${run.isStopped ? "Stopped: " : ""}${end} of ${cut.speeds} speeds. Damping: ${found.damping}.`);
     }
   }
@@ -110,14 +100,13 @@ export class LobesView {
   }
 
   private draw(cut: Cut, best: HTMLElement, list: HTMLElement): void {
-    this.chart?.destroy();
     const frame = element("div", { class: "plot", "aria-label": "Largest stable depth of cut in mm over the spindle speed in rpm; the arrow keys read it" });
     const lines = legend([["var(--ink)", "2px solid", "limit"], ["var(--pale)", "1px dashed", "zeroth order, no bound"]]);
     const stable = element("span", { class: "legend" }, element("i", { class: "stable" }), "stable");
     this.computation.output.replaceChildren(frame, element("div", { class: "row" }, ...lines, stable), best, list);
     const highest = () => {
       const limits = this.points.map((own) => own.limit_mm);
-      // Up to the depth that was looked at where no limit is known: there the area is open.
+      // Without a limit the stable area is open: it reaches the largest depth of the search.
       return limits.length === 0 || limits.includes(null) ? cut.depth_mm : Math.min(cut.depth_mm, 1.15 * Math.max(...limits.map(Number)));
     };
     const options = {
@@ -127,7 +116,7 @@ export class LobesView {
       scales: { x: { time: false, range: (): [number, number] => cut.speed_rpm }, y: { range: (): [number, number] => [0, highest()] } },
       hooks: { drawAxes: [(own: uPlot) => shade(own, this.points)] },
     };
-    this.chart = plot(frame, options, this.data(), (i) => wordsOf(this.points[i]!, cut.depth_mm));
+    this.computation.chart = plot(frame, options, this.data(), (i) => wordsOf(this.points[i]!, cut.depth_mm));
   }
 }
 
@@ -149,7 +138,7 @@ function bestOf(points: Point[], depth: number): string {
   return `Best speed: ${best.speed_rpm.toFixed(0)} rpm, stable up to ${shown(best.limit_mm!)} mm.`;
 }
 
-/** Shades what is stable: below the limit, open upwards without one, and islands above it. */
+/** Shades the stable area: below the limit, open upwards without one, and islands above it. */
 function shade(own: uPlot, points: Point[]): void {
   const { ctx, bbox } = own;
   const x = (rpm: number) => own.valToPos(rpm, "x", true);
@@ -165,7 +154,7 @@ function shade(own: uPlot, points: Point[]): void {
     const here = x(point.speed_rpm);
     const middle = (other: Point | undefined) => (other === undefined ? here : (here + x(other.speed_rpm)) / 2);
     for (const other of [last, next].filter((one) => one !== undefined)) {
-      // Between a limit and none nothing is known but the two.
+      // Nothing is known between a speed with a limit and one without.
       const isOneOpen = (other.limit_mm === null) !== (point.limit_mm === null);
       trapezium(here, y(point.limit_mm), middle(other), isOneOpen ? y(point.limit_mm) : (y(point.limit_mm) + y(other.limit_mm)) / 2);
     }

@@ -18,7 +18,7 @@ const PLANES: Record<string, [number, number, number]> = { xy: [0, 1, 2], xz: [0
 /** Units as they are read: factor and word of the SI unit. */
 const UNITS: Record<string, [number, string]> = { "N/m": [1e-6, "N/um"], "N m/rad": [1e-3, "N m/mrad"], m: [1e6, "um"], rad: [1e3, "mrad"], "1": [1, ""] };
 
-/** A map and what it is of. */
+/** A map with its variable and its state. */
 interface Shown {
   planes: MapPlanes;
   name: string;
@@ -40,7 +40,7 @@ export class MapView implements Guest {
   private readonly cells = new MapCells();
   private readonly marker = new three.Mesh(new three.SphereGeometry(1, 16, 12), new three.MeshBasicMaterial());
   private map: Shown | null = null;
-  /** True once the places are those of the user: they follow the tool no more. */
+  /** True once the user typed places or computed a map; before, the places follow the tool. */
   private isPlaced = false;
   private drawn = "";
 
@@ -57,7 +57,7 @@ export class MapView implements Guest {
     const ends = this.ends.map((pair, k) => fields(`${"xyz"[k]} from, to`, "mm", ...pair));
     const rows = [fields("Variable", "", this.variable), this.meaning, fields("Plane", "", this.plane), fields("Planes", "", this.layers), ...ends, fields("Fineness", "", this.fine)];
     const around = button("Around the tool", () => this.fill(false), "Places around the tool, as far as the machine is large");
-    this.computation = new Computation("Map of the workspace", rows, (run) => this.compute(run), "Compute", [around, this.remove]);
+    this.computation = new Computation(store, "Map of the workspace", rows, (run) => this.compute(run), "Compute", [around, this.remove]);
     this.explain();
     this.fill(false);
     [this.marker.visible, this.remove.hidden] = [false, true];
@@ -70,7 +70,7 @@ export class MapView implements Guest {
     if (!this.isPlaced) {
       this.fill(false);
     }
-    this.computation.mark(this.isOld(), "Of the state before, with another load or orientation of the tool: compute again.");
+    this.computation.show(this.isOld(), "Of the state before, with another load or orientation of the tool: compute again.");
     const look = `${this.stage.dark()} ${this.isOld()} ${this.stage.glyph()}`;
     if (look !== this.drawn) {
       this.drawn = look;
@@ -143,7 +143,7 @@ export class MapView implements Guest {
   }
 
   private async compute(run: Run): Promise<void> {
-    const { request, machine, source } = this.store;
+    const { machine, source } = this.store;
     const variable = this.variable.value;
     const si = machine.variables.find((own) => own.name === variable)?.unit ?? "";
     const [factor, unit] = UNITS[si] ?? [1, si];
@@ -154,11 +154,10 @@ export class MapView implements Guest {
     const progress = () => `${run.isStopped ? "Stopped: " : ""}${all.filter((place) => place.value !== undefined).length} of ${all.length} places.`;
     this.isPlaced = true;
     this.map = map;
-    this.computation.output.replaceChildren();
     this.stage.refit();
     for (const line of lines) {
       this.computation.say(progress());
-      const { values } = await source.ask("map", { state: request, variable, from_mm: line[0]!.at, to_mm: line[line.length - 1]!.at, counts });
+      const { values } = await source.ask("map", { state: run.state, variable, from_mm: line[0]!.at, to_mm: line[line.length - 1]!.at, counts });
       line.forEach((place, i) => (place.value = typeof values[i] === "number" ? factor * values[i] : null));
       if (this.map !== map) {
         return;
@@ -229,20 +228,19 @@ export class MapView implements Guest {
     this.map = null;
     this.cells.clear();
     [this.marker.visible, this.legend.hidden, this.remove.hidden] = [false, true, true];
-    this.computation.output.replaceChildren();
-    this.computation.say("");
+    this.computation.clear();
     this.store.draw({});
   }
 }
 
-/** A variable as people say it: `stiffness_softest` is the softest stiffness. */
+/** Name of a variable in words: `stiffness_softest` is the softest stiffness. */
 function inWords(name: string): string {
   const words = name.replaceAll("_", " ").replace(/^f(\d)$/, "natural frequency $1");
   return words.replace(/^(.*stiffness) (softest|stiffest)$/, "$2 $1").replace(/^(rotational.*) ([xyz])$/, "$1 about $2").replace(/^(stiffness) ([xyz])$/, "$1 along $2");
 }
 
-/** True if the machine is worse off where the value is high. */
+/** True if high values are unfavourable. */
 const isHighWorse = (name: string) => /^(deflection|rotation$|effort|share)/.test(name);
 
-/** The word of the place where the machine is worst off. */
+/** Adjective of the least favourable place. */
 const superlative = (name: string) => (name.includes("stiffness") ? "softest" : "worst");

@@ -99,8 +99,8 @@ class VectorInput {
 export class Panel {
   private readonly finding = element("p", { class: "finding", role: "alert" });
   private readonly sliders: { range: HTMLInputElement; typed: HTMLInputElement }[];
-  /** What is computed on demand; nothing in a file. */
-  private readonly computations: { computation: Computation; show(): void }[];
+  /** Computations on demand; none in a file. */
+  private readonly computations: { computation: Computation; show?(): void }[];
   private readonly tool: VectorInput;
   private readonly force: VectorInput;
   private readonly moment: VectorInput;
@@ -119,7 +119,7 @@ export class Panel {
   ) {
     const { machine, source } = store;
     const live = source.live;
-    this.computations = live ? [new CurveView(store), new MapView(store, stage), new ResponseView(store, stage), new LobesView(store)] : [];
+    this.computations = live ? [new CurveView(store), new MapView(store, stage), new ResponseView(store), new LobesView(store)] : [];
     this.sliders = machine.actuators.map((actuator, i) => {
       const far = actuator.unit === "deg" ? 180 : machine.size_mm;
       const [low, high] = [actuator.low ?? actuator.home - far, actuator.high ?? actuator.home + far];
@@ -250,7 +250,7 @@ export class Panel {
     }
     this.showShares(state);
     this.showLegend();
-    this.computations.forEach((own) => own.show());
+    this.computations.forEach((own) => (own.show === undefined ? own.computation.show() : own.show()));
   }
 
   private showShares(state: State): void {

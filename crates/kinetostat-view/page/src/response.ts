@@ -1,4 +1,4 @@
-// How the tip answers to a vibrating force, over the frequency.
+// Response of the tip to a vibrating force, over the frequency.
 
 import type uPlot from "uplot";
 
@@ -6,13 +6,14 @@ import type { Response } from "./api";
 import { Computation, DampingField, fields, typed, type Run } from "./computation";
 import { element } from "./panel";
 import { axis, css, legend, plot } from "./plot";
-import type { Stage } from "./stage";
 import { shown, type Store } from "./store";
 
 /** Frequencies of a curve. */
 const COUNT = 1000;
 
-/** Lines of x, y and z, told apart without colours, too. */
+const AXES = ["x", "y", "z"];
+
+/** Dashes of x, y and z: colours alone do not distinguish the lines for every eye. */
 const DASHES: number[][] = [[], [8, 4], [2, 3]];
 const STYLES = ["2px solid", "2px dashed", "2px dotted"];
 
@@ -21,60 +22,37 @@ export class ResponseView {
   private readonly from = typed("Lowest frequency, Hz", 1, { min: "0" });
   private readonly to = typed("Highest frequency, Hz", 200, { min: "0" });
   private readonly damping: DampingField;
-  private chart: uPlot | null = null;
-  private legend: HTMLElement | null = null;
-  private of = "";
 
-  constructor(
-    private readonly store: Store,
-    private readonly stage: Stage,
-  ) {
+  constructor(private readonly store: Store) {
     this.damping = new DampingField(store.machine.is_damped);
     const rows = [fields("Frequencies", "Hz", this.from, this.to), ...this.damping.rows];
-    this.computation = new Computation("Response of the tip", rows, (run) => this.compute(run));
-    this.computation.offerCommand(store, "frf", () => {
+    this.computation = new Computation(store, "Response of the tip", rows, (run) => this.compute(run));
+    this.computation.offerCommand("frf", () => {
       const ratio = this.damping.value();
       return `${ratio === null ? "" : `--damping ${ratio} `}--frequencies ${this.from.value} ${this.to.value} ${COUNT}`;
     });
   }
 
-  show(): void {
-    this.computation.mark(this.chart !== null && this.of !== JSON.stringify(this.store.request));
-    this.chart?.redraw(false);
-    this.legend?.replaceChildren(...this.lines());
-  }
-
   private async compute(run: Run): Promise<void> {
-    this.computation.say("Computing ...");
-    const { request } = this.store;
     const frequencies_hz: [number, number] = [this.from.valueAsNumber, this.to.valueAsNumber];
-    const response = await this.store.source.ask("response", { state: request, frequencies_hz, count: COUNT, damping_ratio: this.damping.value() });
-    if (run.isStopped) {
-      this.computation.say("Stopped.");
-      return;
+    const response = await this.store.source.ask("response", { state: run.state, frequencies_hz, count: COUNT, damping_ratio: this.damping.value() });
+    this.computation.say(run.isStopped ? "Stopped." : `Damping: ${response.damping}.`);
+    if (!run.isStopped) {
+      this.draw(response);
     }
-    this.of = JSON.stringify(request);
-    this.draw(response);
-    this.computation.say(`Damping: ${response.damping}.`);
-    this.show();
-  }
-
-  private lines(): HTMLElement[] {
-    const axes = ["x", "y", "z"].map((name, k): [string, string, string] => [this.stage.theme().axes[k]!, STYLES[k]!, name]);
-    return legend([...axes, ["var(--pale)", "1px solid", "natural frequencies"]]);
   }
 
   private draw({ frequencies_hz, um_per_n, natural_frequencies_hz, warnings }: Response): void {
-    this.chart?.destroy();
     const frame = element("div", { class: "plot", "aria-label": "Displacement of the tip by a vibrating force along x, y and z in um/N over the frequency in Hz; the arrow keys read it" });
-    this.legend = element("div", { class: "row" });
-    // The peaks are what is looked for: they are said, too.
+    const axes = AXES.map((name, k): [string, string, string] => [`var(--axis-${name})`, STYLES[k]!, name]);
+    const lines = element("div", { class: "row" }, ...legend([...axes, ["var(--pale)", "1px solid", "natural frequencies"]]));
+    // The peaks limit a cut, and a chart of this size does not show them exactly.
     const peaks = um_per_n.map((own, k) => {
       const peak = own.reduce((best, value, i) => (value > own[best]! ? i : best), 0);
-      return [element("dt", {}, `Largest along ${"xyz"[k]}`), element("dd", {}, `${shown(own[peak]!)} um/N at ${shown(frequencies_hz[peak]!)} Hz`)];
+      return [element("dt", {}, `Largest along ${AXES[k]}`), element("dd", {}, `${shown(own[peak]!)} um/N at ${shown(frequencies_hz[peak]!)} Hz`)];
     });
-    this.computation.output.replaceChildren(frame, this.legend, element("dl", {}, ...peaks.flat()), ...warnings.map((words) => element("p", { class: "unit" }, words)));
-    const series = DASHES.map((dash, k): uPlot.Series => ({ stroke: () => this.stage.theme().axes[k]!, width: 1.5, dash, points: { show: false } }));
+    this.computation.output.replaceChildren(frame, lines, element("dl", {}, ...peaks.flat()), ...warnings.map((words) => element("p", { class: "unit" }, words)));
+    const series = DASHES.map((dash, k): uPlot.Series => ({ stroke: () => css(`--axis-${AXES[k]}`), width: 1.5, dash, points: { show: false } }));
     const options = {
       series: [{}, ...series],
       axes: [axis({ label: "frequency, Hz", size: 26 }), axis({ label: "um/N", size: 44, values: (_: uPlot, splits: number[]) => splits.map((x) => (x === null ? "" : shown(x))) })],
@@ -83,7 +61,7 @@ export class ResponseView {
     };
     // A logarithm has no place for zero, the response of a rigid direction.
     const data = [frequencies_hz, ...um_per_n.map((own) => own.map((x) => (x > 0 ? x : null)))] as uPlot.AlignedData;
-    this.chart = plot(frame, options, data, (i) => [`${shown(frequencies_hz[i]!)} Hz`, ...um_per_n.map((own, k) => `${"xyz"[k]}: ${shown(own[i]!)} um/N`)]);
+    this.computation.chart = plot(frame, options, data, (i) => [`${shown(frequencies_hz[i]!)} Hz`, ...um_per_n.map((own, k) => `${AXES[k]}: ${shown(own[i]!)} um/N`)]);
   }
 }
 

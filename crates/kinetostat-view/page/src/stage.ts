@@ -20,7 +20,7 @@ export const VIEWS: Record<string, Vec3> = { Oblique: [1, -1.4, 0.8], Front: [0,
 /** Length of the arrow of a force, as a share of the size of the machine. */
 const ARROW = 0.22;
 
-/** A thing in the picture that is not of the state. */
+/** An object in the picture that is not part of the state, as a path or a map. */
 export interface Guest {
   /** Finds what a click does at a point of the picture (px), or on the ray through it; null: nothing. */
   pick(x: number, y: number, project: (v: three.Vector3) => three.Vector3, ray: three.Raycaster): (() => void) | null;
@@ -40,7 +40,7 @@ export class Stage {
   private readonly triad = document.createElement("canvas");
   /** What stands at the foot of the picture: axes, scale, legends. */
   readonly foot = document.createElement("div");
-  /** Things that others draw in the picture; a click is for the first one that takes it. */
+  /** Objects of others in the picture; the first one that takes a click gets it. */
   readonly guests: Guest[] = [];
   private readonly note = document.createElement("p");
   private readonly forceTip = handle("Force on the tool: drag its tip");
@@ -173,6 +173,7 @@ export class Stage {
     const theme = this.theme();
     this.scene.background = new three.Color(theme.back);
     document.documentElement.dataset.theme = this.dark() ? "dark" : "light";
+    theme.axes.forEach((colour, k) => document.documentElement.style.setProperty(`--axis-${"xyz"[k]}`, colour));
     if (state === null) {
       return;
     }

@@ -170,7 +170,7 @@ export class Store {
   }
 }
 
-/** What went wrong when something was asked. */
+/** Message of an error of a request. */
 export function inWords(error: unknown): string {
   return error instanceof TypeError ? "The server does not answer: is the command still running?" : String((error as Error).message ?? error);
 }
