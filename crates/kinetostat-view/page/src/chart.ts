@@ -1,10 +1,9 @@
 // Errors along the path as a chart, with the tolerance and the places over it.
 
-import uPlot from "uplot";
-import "uplot/dist/uPlot.min.css";
+import type uPlot from "uplot";
 
 import type { Path, Place } from "./api";
-import { element } from "./panel";
+import { axis, css, plot } from "./plot";
 import { shown } from "./store";
 import { length, time, unitOf } from "./units";
 
@@ -25,7 +24,6 @@ export function figuresOf(place: Place): [string, string][] {
 
 export class ErrorChart {
   private readonly plot: uPlot;
-  private readonly tip = element("div", { class: "tip", hidden: "" });
   private index: number | null = null;
   private isOver: boolean[] = [];
   private by = "before";
@@ -36,44 +34,26 @@ export class ErrorChart {
     go: (index: number) => void,
   ) {
     const { places, tolerance_mm } = path;
-    const css = (name: string) => getComputedStyle(document.documentElement).getPropertyValue(name);
-    const ink = () => css("--ink");
-    const axis = { stroke: ink, grid: { stroke: () => css("--line"), width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", labelSize: 15, labelGap: 0 };
     const data: uPlot.AlignedData = [places.map((place) => place.path_mm), places.map((place) => place.error_before_mm), places.map((place) => place.error_after_mm), places.map(() => tolerance_mm)];
     const series: uPlot.Series[] = [
       {},
       { stroke: () => css("--programmed"), width: 1.5 },
       { stroke: () => css("--compensated"), width: 1.5 },
-      { stroke: ink, width: 1, dash: [6, 4], points: { show: false } },
+      { stroke: () => css("--ink"), width: 1, dash: [6, 4], points: { show: false } },
     ];
-    const options: uPlot.Options = {
-      width: Math.max(frame.clientWidth, 200),
-      height: Math.max(frame.clientHeight, 90),
-      padding: [8, 12, 0, 0],
+    const options = {
       series,
-      axes: [
-        { ...axis, label: "length of the path, mm", size: 26 },
-        { ...axis, size: 58, space: 22, values: (_, splits) => splits.map((mm) => this.tick(mm)) },
-      ],
-      scales: { x: { time: false }, y: { range: () => [0, this.highest()] } },
-      legend: { show: false },
-      cursor: { y: false, drag: { x: false, y: false } },
-      hooks: {
-        drawAxes: [(plot) => this.mark(plot, css("--alert"))],
-        draw: [(plot) => this.current(plot, css("--accent"))],
-        setCursor: [() => this.showTip()],
-      },
+      axes: [axis({ label: "length of the path, mm", size: 26 }), axis({ size: 58, space: 22, values: (_, splits) => splits.map((mm) => this.tick(mm)) })],
+      scales: { x: { time: false }, y: { range: (): [number, number] => [0, this.highest()] } },
+      hooks: { drawAxes: [(own: uPlot) => this.mark(own, css("--alert"))], draw: [(own: uPlot) => this.current(own, css("--accent"))] },
     };
-    this.plot = new uPlot(options, data, frame);
-    frame.append(this.tip);
+    this.plot = plot(frame, options, data, (i) => figuresOf(places[i]!).map(([label, value]) => `${label}: ${value}`));
     this.plot.over.addEventListener("click", () => {
       const { idx } = this.plot.cursor;
       if (typeof idx === "number") {
         go(idx);
       }
     });
-    frame.setAttribute("role", "img");
-    new ResizeObserver(() => this.plot.setSize({ width: Math.max(frame.clientWidth, 100), height: Math.max(frame.clientHeight, 90) })).observe(frame);
   }
 
   /** Draws anew: the place that is shown, which places are over tolerance, and by which error. */
@@ -137,19 +117,5 @@ export class ErrorChart {
     ctx.fillStyle = colour;
     ctx.fillRect(plot.valToPos(place.path_mm, "x", true) - devicePixelRatio, bbox.top, 2 * devicePixelRatio, bbox.height);
     ctx.restore();
-  }
-
-  private showTip(): void {
-    const { idx, left = -1 } = this.plot.cursor;
-    const place = typeof idx === "number" && left >= 0 ? this.path.places[idx] : undefined;
-    this.tip.hidden = place === undefined;
-    if (place === undefined) {
-      return;
-    }
-    this.tip.replaceChildren(...figuresOf(place).map(([label, value]) => element("div", {}, `${label}: ${value}`)));
-    const { offsetLeft, clientWidth } = this.plot.over;
-    const beside = left > clientWidth / 2 ? left - this.tip.offsetWidth - 12 : left + 12;
-    this.tip.style.left = `${Math.max(offsetLeft + beside, 0)}px`;
-    this.tip.style.top = "4px";
   }
 }

@@ -1,7 +1,8 @@
 // The load grows: equilibria as a curve with its branches, each with the shape of the machine.
 
 import type { Curve, CurvePlace } from "./api";
-import { button, element } from "./panel";
+import { Computation, fields, typed, type Run } from "./computation";
+import { element } from "./panel";
 import { round, shown, type Store } from "./store";
 
 const WIDTH = 300;
@@ -23,35 +24,22 @@ function ticks(low: number, high: number): number[] {
 }
 
 export class CurveView {
-  readonly section: HTMLElement;
-  private readonly factor = element("input", { type: "number", value: "10", min: "0", step: "any", "aria-label": "Largest factor of the load" }) as HTMLInputElement;
+  readonly computation: Computation;
+  private readonly factor = typed("Largest factor of the load", 10, { min: "0" });
   private readonly slider = element("input", { type: "range", min: "0", value: "0", "aria-label": "Place on the curve" }) as HTMLInputElement;
-  private readonly said = element("p", { class: "unit", role: "status" });
   private readonly chart = element("div", { class: "curve" });
   private curve: Curve | null = null;
-  private of = "";
 
   constructor(private readonly store: Store) {
-    this.section = element(
-      "section",
-      { class: "drawing" },
-      element("h2", {}, "Let the load grow"),
-      element("div", { class: "row" }, "from 0 to", this.factor, "times", button("Follow", () => void this.follow())),
-      this.chart,
-      this.slider,
-      this.said,
-    );
-    this.slider.hidden = true;
+    this.computation = new Computation(store, "Let the load grow", [fields("From 0 to", "times", this.factor)], (run) => this.follow(run), "Follow");
     this.slider.addEventListener("input", () => this.choose(this.places()[this.slider.valueAsNumber] ?? null));
   }
 
   /** A curve is that of one posture under one load: with another one it goes. */
   show(): void {
-    if (this.curve !== null && this.of !== JSON.stringify(this.store.request)) {
+    if (this.computation.isOld()) {
       this.curve = null;
-      this.chart.replaceChildren();
-      this.said.textContent = "";
-      this.slider.hidden = true;
+      this.computation.clear();
     }
   }
 
@@ -59,22 +47,19 @@ export class CurveView {
     return this.curve?.branches.flatMap((branch) => branch.places) ?? [];
   }
 
-  private async follow(): Promise<void> {
-    this.said.textContent = "Following ...";
-    const { request } = this.store;
-    try {
-      this.curve = await this.store.source.ask("curve", { state: request, factor: this.factor.valueAsNumber });
-    } catch (error) {
-      this.said.textContent = String((error as Error).message);
+  private async follow(run: Run): Promise<void> {
+    const curve = await this.store.source.ask("curve", { state: run.state, factor: this.factor.valueAsNumber });
+    if (run.isStopped) {
+      this.computation.say("Stopped.");
       return;
     }
-    this.of = JSON.stringify(request);
+    this.curve = curve;
     this.slider.max = String(this.places().length - 1);
-    this.slider.hidden = false;
+    this.computation.output.append(this.chart, this.slider);
     const more = this.curve.more_branches ? " There are more branches than these." : "";
     const words = this.curve.marks.map((mark) => `${mark.words} at ${shown(mark.factor)} times the load`);
     const all = words.length > 0 ? words.join("; ") : "no special point";
-    this.said.textContent = `${all.charAt(0).toUpperCase()}${all.slice(1)}.${more}`;
+    this.computation.say(`${all.charAt(0).toUpperCase()}${all.slice(1)}.${more}`);
     this.choose(null);
   }
 

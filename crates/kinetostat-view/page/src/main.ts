@@ -7,7 +7,7 @@ import { PathView } from "./pathview";
 import { printable } from "./picture";
 import { Questions } from "./questions";
 import { Stage } from "./stage";
-import { Store } from "./store";
+import { Store, inWords } from "./store";
 import { toolbar } from "./toolbar";
 import "./style.css";
 
@@ -46,6 +46,5 @@ async function start(): Promise<void> {
 }
 
 start().catch((error: unknown) => {
-  const words = error instanceof TypeError ? "The server does not answer: is the command still running?" : String((error as Error).message ?? error);
-  document.body.replaceChildren(element("p", { class: "finding", role: "alert" }, words), ...(hasAddress() ? [button("Retry", () => window.location.reload())] : []));
+  document.body.replaceChildren(element("p", { class: "finding", role: "alert" }, inWords(error)), ...(hasAddress() ? [button("Retry", () => window.location.reload())] : []));
 });

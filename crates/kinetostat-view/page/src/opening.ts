@@ -40,5 +40,5 @@ export function opening(source: Source): HTMLElement {
       void open(source, files, said);
     }
   });
-  return element("details", {}, element("summary", {}, "Open files"), element("p", { class: "unit" }, "A model, or a job with its model and program: all together, chosen here or dropped onto the page."), input, said);
+  return element("details", { class: "computation" }, element("summary", {}, "Open files"), element("p", { class: "unit" }, "A model, or a job with its model and program: all together, chosen here or dropped onto the page."), input, said);
 }

@@ -4,9 +4,13 @@ import { hasAddress } from "./address";
 import type { State, Vec3 } from "./api";
 import { limbValues } from "./byvalue";
 import { byShare } from "./colour";
+import type { Computation } from "./computation";
 import { CurveView } from "./curve";
+import { LobesView } from "./lobes";
+import { MapView } from "./map";
 import { opening } from "./opening";
 import { picture } from "./picture";
+import { ResponseView } from "./response";
 import type { Stage } from "./stage";
 import { scaleOf, shown, type Colours, type Store } from "./store";
 import { summary } from "./summary";
@@ -23,6 +27,19 @@ export function button(words: string, action: () => void, title = words): HTMLBu
   const made = element("button", { type: "button", title }, words);
   made.addEventListener("click", action);
   return made;
+}
+
+/** A button that copies a text, if there is one; where the browser refuses, the text is shown. */
+export function copyButton(words: string, text: () => string | null, say: (words: string) => void): HTMLButtonElement {
+  return button(words, () => {
+    const own = text();
+    const ask = () => void window.prompt("To be copied:", own ?? "");
+    if (own !== null && navigator.clipboard === undefined) {
+      ask();
+    } else if (own !== null) {
+      navigator.clipboard.writeText(own).then(() => say("copied"), ask);
+    }
+  });
 }
 
 function section(title: string, ...content: (Node | string)[]): HTMLElement {
@@ -83,7 +100,8 @@ class VectorInput {
 export class Panel {
   private readonly finding = element("p", { class: "finding", role: "alert" });
   private readonly sliders: { range: HTMLInputElement; typed: HTMLInputElement }[];
-  private readonly curve: CurveView;
+  /** Computations on demand; none in a file. */
+  private readonly computations: { computation: Computation; show?(): void }[];
   private readonly tool: VectorInput;
   private readonly force: VectorInput;
   private readonly moment: VectorInput;
@@ -102,7 +120,7 @@ export class Panel {
   ) {
     const { machine, source } = store;
     const live = source.live;
-    this.curve = new CurveView(store);
+    this.computations = live ? [new CurveView(store), new MapView(store, stage), new ResponseView(store), new LobesView(store)] : [];
     this.sliders = machine.actuators.map((actuator, i) => {
       const far = actuator.unit === "deg" ? 180 : machine.size_mm;
       const [low, high] = [actuator.low ?? actuator.home - far, actuator.high ?? actuator.home + far];
@@ -139,7 +157,7 @@ export class Panel {
       this.drawing(),
       section("Figures", this.nearby, this.figures),
       section("What bends", this.shares),
-      ...(live ? [this.curve.section] : []),
+      ...this.computations.map((own) => own.computation.section),
       element("div", { class: "row" }, ...(hasAddress() ? [this.copy("Copy link", () => store.link())] : []), this.copy("Copy command", () => store.state?.cli ?? ""), this.copy("Copy Python", () => store.state?.python ?? ""), this.picture(), this.said),
       ...(source.opens ? [opening(source)] : []),
       element("p", { class: "unit" }, `kinetostat ${machine.version}`),
@@ -185,13 +203,7 @@ export class Panel {
   }
 
   private copy(words: string, text: () => string): HTMLElement {
-    return button(words, () => {
-      const done = () => (this.said.textContent = "copied");
-      navigator.clipboard?.writeText(text()).then(done, () => window.prompt("To be copied:", text()));
-      if (navigator.clipboard === undefined) {
-        window.prompt("To be copied:", text());
-      }
-    });
+    return copyButton(words, text, (said) => (this.said.textContent = said));
   }
 
   private picture(): HTMLElement {
@@ -240,7 +252,7 @@ export class Panel {
     }
     this.showShares(state);
     this.showLegend();
-    this.curve.show();
+    this.computations.forEach((own) => (own.show === undefined ? own.computation.show() : own.show()));
   }
 
   private showShares(state: State): void {

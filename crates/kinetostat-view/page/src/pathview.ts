@@ -4,11 +4,12 @@ import * as three from "three";
 
 import type { Path } from "./api";
 import { COMPENSATED, ErrorChart, PROGRAMMED, figuresOf } from "./chart";
-import { byShare, ramp } from "./colour";
+import { byShare, strip } from "./colour";
 import { vector } from "./machine3d";
 import { button, element } from "./panel";
 import { PathLine } from "./path3d";
 import { FIT, Playback } from "./playback";
+import { legend } from "./plot";
 import { ProgramLines } from "./programlines";
 import type { Stage } from "./stage";
 import { pathColours, type PathColour } from "./pathcolours";
@@ -70,10 +71,13 @@ export class PathView {
     this.chart = new ErrorChart(chart, path, (index) => this.go(index));
     stage.foot.append(this.legend);
     stage.extra.add(this.line.group, this.marker);
-    stage.pick = (x, y, project) => {
-      const index = this.line.pick(x, y, project);
-      return index === null ? null : () => this.go(index);
-    };
+    // Before the map, on which the path may lie.
+    stage.guests.unshift({
+      pick: (x, y, project) => {
+        const index = this.line.pick(x, y, project);
+        return index === null ? null : () => this.go(index);
+      },
+    });
   }
 
   private rates(): HTMLElement {
@@ -93,16 +97,11 @@ export class PathView {
   }
 
   private chartLegend(): HTMLElement {
-    const lines = [
-      [PROGRAMMED, "solid", "as programmed"],
-      [COMPENSATED, "solid", "compensated"],
-      ["var(--ink)", "dashed", "tolerance"],
-    ];
-    const each = lines.map(([colour, style, words]) => {
-      const line = element("i", {});
-      line.style.borderTop = `2px ${style} ${colour}`;
-      return element("span", { class: "legend" }, line, words!);
-    });
+    const each = legend([
+      [PROGRAMMED, "2px solid", "as programmed"],
+      [COMPENSATED, "2px solid", "compensated"],
+      ["var(--ink)", "2px dashed", "tolerance"],
+    ]);
     const over = element("span", { class: "legend" }, element("i", { class: "over" }), this.overWords);
     return element("div", { class: "row" }, ...each, over);
   }
@@ -164,8 +163,7 @@ export class PathView {
   private explain(most: number, isOver: boolean[], dark: boolean): void {
     const { places, tolerance_mm } = this.path;
     const { key: by, words, text, over } = this.colour();
-    const scale = element("i", { class: "ramp" });
-    scale.style.background = ramp(dark);
+    const scale = strip((share) => byShare(share, dark));
     this.legend.replaceChildren(`Path, ${words}: 0`, scale, text(most));
     const count = isOver.filter((own) => own).length;
     this.overWords.textContent = over;

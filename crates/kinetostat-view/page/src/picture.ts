@@ -1,6 +1,5 @@
 // The picture as it is seen, with its words: to be saved, and to be printed.
 
-import { byShare } from "./colour";
 import type { Stage } from "./stage";
 import type { Store } from "./store";
 
@@ -39,10 +38,10 @@ export function picture(stage: Stage): HTMLCanvasElement {
     context.fillStyle = style.color;
     context.fillText(text.trim(), box.x, box.y + box.height / 2, box.width);
   }
-  for (const own of frame.querySelectorAll(".ramp")) {
+  for (const own of frame.querySelectorAll<HTMLElement>(".ramp")) {
     const box = own.getBoundingClientRect();
     const shades = context.createLinearGradient(box.left, 0, box.right, 0);
-    [0, 0.2, 0.4, 0.6, 0.8, 1].forEach((share) => shades.addColorStop(share, byShare(share, stage.dark())));
+    (own.dataset.colours ?? "").split(";").forEach((colour, i, all) => shades.addColorStop(i / (all.length - 1), colour));
     context.fillStyle = shades;
     context.fillRect(box.x, box.y, box.width, box.height);
   }

@@ -21,6 +21,15 @@ export const VIEWS: Record<string, Vec3> = { Oblique: [1, -1.4, 0.8], Front: [0,
 /** Length of the arrow of a force, as a share of the size of the machine. */
 const ARROW = 0.22;
 
+/** An object in the picture that is not part of the state, as a path or a map. */
+export interface Guest {
+  /** Finds what a click does at a point of the picture (px), or on the ray through it; null: nothing. */
+  pick(x: number, y: number, project: (v: three.Vector3) => three.Vector3, ray: three.Raycaster): (() => void) | null;
+  words?(): Label[];
+  /** Points that a view of all has in it. */
+  points?(): three.Vector3[];
+}
+
 export class Stage {
   readonly renderer = new three.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
   private readonly scene = new three.Scene();
@@ -32,8 +41,8 @@ export class Stage {
   private readonly triad = document.createElement("canvas");
   /** What stands at the foot of the picture: axes, scale, legends. */
   readonly foot = document.createElement("div");
-  /** Finds what a click at a point of the picture (px) does; null: nothing. */
-  pick: (x: number, y: number, project: (v: three.Vector3) => three.Vector3) => (() => void) | null = () => null;
+  /** Objects of others in the picture; the first one that takes a click gets it. */
+  readonly guests: Guest[] = [];
   private readonly note = document.createElement("p");
   private readonly forceTip = handle("Force on the tool: drag its tip");
   private readonly toolTip = handle("Tool: drag it");
@@ -103,7 +112,7 @@ export class Stage {
   /** Turns the camera, and takes all of the machine into view; or only the path, or the tool, from near. */
   look(view: string): void {
     this.view = view;
-    const points = view === "Near" ? this.near() : [...this.points(), ...this.tip()];
+    const points = view === "Near" ? this.near() : [...this.points(), ...this.tip(), ...this.guests.flatMap((own) => own.points?.() ?? [])];
     if (view !== "Near") {
       this.direction = vector(VIEWS[view] ?? VIEWS.Oblique!).normalize();
     }
@@ -165,6 +174,7 @@ export class Stage {
     const theme = this.theme();
     this.scene.background = new three.Color(theme.back);
     document.documentElement.dataset.theme = this.dark() ? "dark" : "light";
+    theme.axes.forEach((colour, k) => document.documentElement.style.setProperty(`--axis-${"xyz"[k]}`, colour));
     if (state === null) {
       return;
     }
@@ -252,7 +262,7 @@ export class Stage {
     if (moment > 0) {
       out.push({ at: this.momentLabel.clone(), text: `${shown(moment)} N m`, isNeeded: true });
     }
-    out.push(...this.boxes().map(boxLabel));
+    out.push(...this.boxes().map(boxLabel), ...this.guests.flatMap((own) => own.words?.() ?? []));
     const names = this.store.look.names ? state.scene.words : [];
     return [...out, ...names.map((word) => ({ at: vector(word.at_mm), text: word.text }))];
   }
@@ -282,6 +292,11 @@ export class Stage {
     }
   }
 
+  /** Has the picture drawn with the next frame. */
+  refresh(): void {
+    this.isOld = true;
+  }
+
   /** The picture as it is now, and the element that it fills. */
   rendered(): { canvas: HTMLCanvasElement; frame: HTMLElement } {
     this.render();
@@ -302,6 +317,11 @@ export class Stage {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = Math.max(width, 1) / Math.max(height, 1);
     this.camera.updateProjectionMatrix();
+    this.refit();
+  }
+
+  /** Takes all into view again, unless the camera was turned by hand. */
+  refit(): void {
     this.isOld = true;
     if (this.view !== null) {
       this.look(this.view);
@@ -334,7 +354,14 @@ export class Stage {
     let pressed: [number, number] | null = null;
     const picked = (event: PointerEvent) => {
       const box = canvas.getBoundingClientRect();
-      return this.pick(event.clientX - box.left, event.clientY - box.top, this.project);
+      const ray = this.ray(event);
+      for (const guest of this.guests) {
+        const found = guest.pick(event.clientX - box.left, event.clientY - box.top, this.project, ray);
+        if (found !== null) {
+          return found;
+        }
+      }
+      return null;
     };
     canvas.addEventListener("pointerdown", down, first);
     canvas.addEventListener("pointerdown", (event) => (pressed = this.dragged === null ? [event.clientX, event.clientY] : null));

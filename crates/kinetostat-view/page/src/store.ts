@@ -131,7 +131,7 @@ export class Store {
         this.modes = this.look.swing ? await this.source.ask("modes", this.request) : null;
         this.error = null;
       } catch (error) {
-        this.error = error instanceof TypeError ? "The server does not answer: is the command still running?" : String((error as Error).message);
+        this.error = inWords(error);
       }
       this.changed();
     }
@@ -176,6 +176,11 @@ export class Store {
     this.request = words.has("state") || start === undefined ? read<StateRequest>("state", {}) : start;
     this.look = read("look", this.look);
   }
+}
+
+/** Message of an error of a request. */
+export function inWords(error: unknown): string {
+  return error instanceof TypeError ? "The server does not answer: is the command still running?" : String((error as Error).message ?? error);
 }
 
 /** 1, 2 or 5 times a power of ten, at most `x`. */

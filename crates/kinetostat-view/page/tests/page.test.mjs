@@ -135,9 +135,9 @@ test("a place out of reach is said, and the page goes on", async () => {
   const page = await opened(await served("orthoglide"));
   await page.getByLabel("Tool x, mm").fill("2000");
   await page.keyboard.press("Tab");
-  await page.locator(".finding", { hasText: "cannot be reached" }).waitFor();
+  await page.locator("#panel > .finding", { hasText: "cannot be reached" }).waitFor();
   await page.getByRole("button", { name: "Home" }).click();
-  await page.locator(".finding").waitFor({ state: "hidden" });
+  await page.locator("#panel > .finding").waitFor({ state: "hidden" });
   const refused = page.wrong.filter((text) => !text.includes("422"));
   assert.deepEqual(refused, []);
 });
@@ -230,7 +230,7 @@ test("a program is played evenly, or with its times", async () => {
   const path = await pathOf(url);
   path.places.forEach((place) => (place.time_s = null));
   const evenly = await opened(url, { path });
-  assert.deepEqual(await evenly.getByLabel("Speed").locator("option").allInnerTexts(), ["in 20 s"]);
+  assert.deepEqual(await evenly.locator(".controls").getByLabel("Speed").locator("option").allInnerTexts(), ["in 20 s"]);
   await slider(evenly).focus();
   await evenly.keyboard.press(" ");
   await evenly.waitForFunction(() => document.querySelector("[aria-label='Place along the path']").value > 20);
@@ -244,14 +244,14 @@ test("a program is played evenly, or with its times", async () => {
   const half = Math.floor(path.places.length / 2);
   path.places.forEach((place, i) => (place.time_s = 3 + (i < half ? (0.5 * i) / half : 0.5 + (60 * (i - half)) / half)));
   const timed = await opened(url, { path });
-  await timed.getByLabel("Speed").selectOption("1x");
+  await timed.locator(".controls").getByLabel("Speed").selectOption("1x");
   await timed.getByRole("button", { name: "Play" }).click();
   await timed.waitForFunction((goal) => document.querySelector("[aria-label='Place along the path']").value >= goal, half);
   await timed.getByRole("button", { name: "Stop" }).click();
   const index = Number(await slider(timed).inputValue());
   assert.ok(index < half + 0.1 * path.places.length, `${index} of ${path.places.length}`);
   assert.equal(await ofPlace(timed, "Time"), `${path.places[index].time_s.toFixed(2)} s`);
-  await timed.getByLabel("Speed").selectOption("100x");
+  await timed.locator(".controls").getByLabel("Speed").selectOption("100x");
   await timed.getByRole("button", { name: "Play" }).click();
   await at(timed, path.places.length - 1);
   await timed.getByRole("button", { name: "Play" }).waitFor();
@@ -394,9 +394,186 @@ test("a page in a frame of a report works, with its panel closed at first", asyn
   assert.deepEqual(page.wrong, []);
 });
 
+/** A section of the panel that computes, opened by keys. */
+async function computation(page, title) {
+  const section = page.locator("details", { has: page.locator("summary", { hasText: title }) });
+  await section.locator("summary").press("Enter");
+  return section;
+}
+
+/** JSON of a command as it is typed in a shell. */
+function saidBy(line) {
+  const words = [...line.matchAll(/'([^']*)'|(\S+)/g)].map(([, quoted, plain]) => quoted ?? plain);
+  return JSON.parse(spawnSync(command, [...words.slice(1), "--json"], { encoding: "utf8" }).stdout);
+}
+
+/** The command that a section has to be copied. */
+async function copied(page, section) {
+  await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  await section.getByRole("button", { name: "Copy command" }).press("Enter");
+  await section.getByText("copied").waitFor();
+  return page.evaluate(() => navigator.clipboard.readText());
+}
+
+/** Slows a question down, so that somebody can stop it; counts how often it is asked. */
+async function slow(page, question) {
+  const count = { asked: 0 };
+  await page.route(`**/api/${question}`, async (route) => {
+    count.asked += 1;
+    await new Promise((resolve) => setTimeout(resolve, 300));
+    await route.continue();
+  });
+  return count;
+}
+
+test("a map of the workspace is that of the command, and leads to its places", async () => {
+  const page = await opened(`${await served("orthoglide")}#state=${encodeURIComponent(JSON.stringify({ force_n: [100, 50, -200] }))}`);
+  const map = await computation(page, "Map of the workspace");
+  await page.getByLabel("Variable").selectOption({ label: "deflection" });
+  for (const [end, value] of [["from", "-60"], ["to", "60"]]) {
+    await page.getByLabel(`Map x ${end}, mm`).fill(value);
+    await page.getByLabel(`Map y ${end}, mm`).fill(value);
+  }
+  await page.getByLabel("Places along a side").selectOption("11");
+  const before = await page.locator("#stage").screenshot();
+  await map.getByRole("button", { name: "Compute" }).press("Enter");
+  await map.getByText("121 of 121 places").waitFor();
+  const words = "kinetostat map orthoglide --x -60 60 11 --y -60 60 11 --z 0 --force 100 50 -200 --variables deflection";
+  const said = saidBy(words).figures.find((own) => own.name === "deflection");
+  for (const [label, { value, position_mm }] of [["Least", said.least], ["Most", said.most]]) {
+    assert.equal(await figure(page, label), `${digits(1e6 * value)} um\nat (${position_mm.map(digits).join(", ")}) mm`);
+  }
+  const legend = page.locator(".maplegend");
+  assert.match(await legend.innerText(), /^Deflection, um:/);
+  assert.ok((await legend.innerText()).endsWith(digits(1e6 * said.most.value)));
+  assert.notDeepEqual(await page.locator("#stage").screenshot(), before);
+  await map.scrollIntoViewIfNeeded();
+  await page.screenshot({ path: join(shots, "map.png") });
+  // The worst place, and one under the pointer.
+  await map.getByRole("button", { name: "Go to the worst place" }).press("Enter");
+  const tool = (x) => page.waitForFunction((goal) => Math.abs(document.querySelector("[aria-label='Tool x, mm']").value - goal) < 0.01, x);
+  await tool(said.most.position_mm[0]);
+  const displacement = 1e3 * said.most.value;
+  assert.ok((await figure(page, "Displacement of the tool")).startsWith(`${displacement.toPrecision(4)} mm`));
+  for (const axis of ["x", "y"]) {
+    await page.getByLabel(`Tool ${axis}, mm`).fill("0");
+    await page.getByLabel(`Tool ${axis}, mm`).press("Enter");
+  }
+  await page.waitForFunction(() => ["x", "y"].every((axis) => Math.abs(document.querySelector(`[aria-label='Tool ${axis}, mm']`).value) < 0.01));
+  await page.getByTitle("Look: top").click();
+  await page.waitForTimeout(1000);
+  const box = await page.locator("canvas").first().boundingBox();
+  const [left, top] = (await page.locator("#stage").getAttribute("data-tool")).split(",").map(Number);
+  const place = map.getByText(/^Tool at/);
+  const was = await place.innerText();
+  await page.mouse.click(box.x + left + 30, box.y + top);
+  await place.filter({ hasNotText: was }).waitFor();
+  const [, x, value] = /Tool at \((.*?), .* mm: (.*) um\.$/.exec(await place.innerText());
+  assert.equal(Math.abs(Number(x) % 12), 0);
+  await tool(Number(x));
+  assert.equal(digits(1e3 * parseFloat(await figure(page, "Displacement of the tool"))), value);
+  assert.equal(await map.locator(".old").innerText(), "");
+  // With another load it is the map of another state.
+  await page.getByLabel("Force x, N").fill("500");
+  await page.getByLabel("Force x, N").press("Enter");
+  await map.getByText("compute again").waitFor();
+  assert.match(await legend.innerText(), /of the state before/);
+  const count = await slow(page, "map");
+  await map.getByRole("button", { name: "Compute" }).press("Enter");
+  await map.getByText(/^\d\d of 121 places/).waitFor();
+  await map.getByRole("button", { name: "Stop" }).press("Enter");
+  await map.getByText(/^Stopped: \d+ of 121 places/).waitFor();
+  assert.ok(count.asked < 11, `${count.asked} lines asked`);
+  assert.equal(await map.locator(".old").innerText(), "");
+  await map.getByRole("button", { name: "Remove" }).press("Enter");
+  assert.ok(await legend.isHidden());
+  // What cannot be computed is said here.
+  await page.getByLabel("Map x to, mm").fill("1e9");
+  await map.getByRole("button", { name: "Compute" }).press("Enter");
+  await map.getByRole("alert").filter({ hasText: "at most 10 km away" }).waitFor();
+  assert.deepEqual(page.wrong.filter((text) => !text.includes("422")), []);
+});
+
+test("the response of the tip is that of the command", async () => {
+  const page = await opened(await served("heavy_6r"));
+  await page.getByLabel("joint 1, deg").last().fill("20");
+  await page.keyboard.press("Tab");
+  const response = await computation(page, "Response of the tip");
+  await response.getByText("is an assumption").waitFor();
+  await page.getByLabel("Highest frequency, Hz").fill("100");
+  await response.getByLabel("Damping ratio").fill("");
+  await response.getByRole("button", { name: "Compute" }).press("Enter");
+  await response.getByRole("alert").filter({ hasText: "Damping ratio: a number from 0 to 1 is needed." }).waitFor();
+  await response.getByLabel("Damping ratio").fill("0.02");
+  await response.getByLabel("Damping ratio").press("Enter");
+  await response.locator("canvas").waitFor();
+  assert.ok(await response.getByRole("alert").isHidden());
+  const said = saidBy(await copied(page, response));
+  const sizes = said.curves.map(({ real, imaginary }) => real.map((x, i) => 1e6 * Math.hypot(x, imaginary[i])));
+  for (const [k, axis] of ["x", "y", "z"].entries()) {
+    const peak = sizes[k].indexOf(Math.max(...sizes[k]));
+    assert.equal(await figure(page, `Largest along ${axis}`), `${digits(sizes[k][peak])} um/N at ${digits(said.frequencies_hz[peak])} Hz`);
+  }
+  // Keys read the chart.
+  await response.locator(".plot").press("ArrowRight");
+  const tip = await response.locator(".tip").innerText();
+  assert.equal(tip, [`${digits(said.frequencies_hz[5])} Hz`, ...sizes.map((own, k) => `${"xyz"[k]}: ${digits(own[5])} um/N`)].join("\n"));
+  await response.scrollIntoViewIfNeeded();
+  await page.screenshot({ path: join(shots, "response.png") });
+  await page.getByLabel("Force z, N").fill("-100");
+  await page.getByLabel("Force z, N").press("Enter");
+  await response.getByText("compute again").waitFor();
+  await slow(page, "response");
+  await response.getByRole("button", { name: "Compute" }).press("Enter");
+  await response.getByRole("button", { name: "Stop" }).press("Enter");
+  await response.getByText("Stopped.").waitFor();
+  // A machine without masses says why it has none.
+  const without = await opened(await served("orthoglide"));
+  const none = await computation(without, "Response of the tip");
+  await none.getByRole("button", { name: "Compute" }).click();
+  await none.getByRole("alert").filter({ hasText: "no mass" }).waitFor();
+  assert.deepEqual(page.wrong, []);
+});
+
+test("speeds and depths without chatter are those of the command, piece by piece", async () => {
+  const page = await opened(await served("heavy_6r"));
+  const lobes = await computation(page, "Chatter: speeds and depths");
+  await lobes.getByRole("button", { name: "Compute" }).press("Enter");
+  await lobes.getByRole("alert").filter({ hasText: "Tangential coefficient, N/mm^2: a number is needed." }).waitFor();
+  for (const [label, value] of [["Tangential coefficient", "800"], ["Radial coefficient", "240"], ["Axial coefficient", "0"], ["Immersion", "0.5"], ["Number of speeds", "20"], ["Fastest spindle speed", "4000"]]) {
+    await lobes.getByLabel(label).fill(value);
+  }
+  await lobes.getByLabel("Side").selectOption("up");
+  await lobes.getByRole("button", { name: "Compute" }).press("Enter");
+  await lobes.getByText("20 of 20 speeds. Damping: 0.03 of critical in every mode.").waitFor();
+  const said = saidBy(await copied(page, lobes));
+  assert.equal(said.points.length, 20);
+  await lobes.getByText(`Best speed: ${said.best.speed_rpm.toFixed(0)} rpm, stable up to ${digits(said.best.depth_mm)} mm.`).waitFor();
+  for (const { speed_rpm, limit_mm, kind, chatter_hz, zeroth_order_mm } of said.points.slice(1, 12)) {
+    await lobes.locator(".plot").press("ArrowRight");
+    const tip = (await lobes.locator(".tip").innerText()).split("\n");
+    assert.deepEqual(tip, [`${speed_rpm.toFixed(0)} rpm`, `stable up to ${digits(limit_mm)} mm`, `${kind === "flip" ? "period doubling" : "chatter"} at ${digits(chatter_hz)} Hz`, `zeroth order: ${digits(zeroth_order_mm)} mm`]);
+  }
+  await lobes.scrollIntoViewIfNeeded();
+  await page.screenshot({ path: join(shots, "lobes.png") });
+  // Where nothing chatters up to the depth that was looked at, no limit is stated.
+  await lobes.getByLabel("Largest depth of cut, mm").fill("0.1");
+  await lobes.getByRole("button", { name: "Compute" }).press("Enter");
+  await lobes.getByText("No limit was found up to 0.1 mm, the depth that was looked at, at 20 of 20 speeds; the slowest is 1000 rpm.").waitFor();
+  const count = await slow(page, "lobes");
+  await lobes.getByLabel("Number of speeds").fill("200");
+  await lobes.getByRole("button", { name: "Compute" }).press("Enter");
+  await lobes.getByText("8 of 200 speeds").first().waitFor();
+  await lobes.getByRole("button", { name: "Stop" }).press("Enter");
+  await lobes.getByText(/^Stopped: \d+ of 200 speeds/).waitFor();
+  assert.ok(count.asked < 25, `${count.asked} pieces asked`);
+  assert.deepEqual(page.wrong, []);
+});
+
 test("a load grows along a curve, and its places have shapes", async () => {
   const url = await served("orthoglide", "--force", "0", "0", "-2000");
   const page = await opened(`${url}#state=${encodeURIComponent(JSON.stringify({ force_n: [100, 50, -2000] }))}`);
+  await computation(page, "Let the load grow");
   await page.getByLabel("Largest factor of the load").fill("60");
   await page.getByRole("button", { name: "Follow" }).press("Enter");
   const curve = page.locator(".curve svg");
@@ -541,7 +718,7 @@ for (const [name, options] of [
     const page = await opened(await served("job.toml"), { ...options, bypassCSP: true });
     await page.getByRole("button", { name: "Worst place" }).click();
     await page.locator("li[aria-current]").waitFor();
-    await page.locator(".summary summary").click();
+    await page.evaluate(() => document.querySelectorAll("details").forEach((own) => (own.open = true)));
     await page.screenshot({ path: join(shots, `${name}.png`) });
     await page.evaluate(axe);
     const { violations } = await page.evaluate(() => window.axe.run());
