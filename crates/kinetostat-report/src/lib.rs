@@ -15,7 +15,7 @@
 //! - `drawing`: a machine in space, as lines on paper.
 //! - `vibration`: stability lobes and receptances.
 //! - `turns`: the free turn of a round tool along a path, over all turns that were tried.
-//! - `paper`: the report to be signed, as PDF without pictures or HTML with two, in three languages.
+//! - `paper`: the report to be signed, as PDF or HTML, in three languages.
 //! - `number` and `text` decide how numbers and names look, in one place.
 //!
 //! # Why the plots are drawn here and not by a plotting library
@@ -92,7 +92,7 @@ pub fn html(result: &RunResult) -> Result<String, ReportError> {
 /// The machine of a run, for its report.
 #[derive(Clone, Debug)]
 pub struct MachineShown {
-    /// A page in three dimensions with its results in it, HTML: it asks no server.
+    /// A page in three dimensions with its results in it, HTML: it asks no server. Papers have none.
     pub page: String,
     /// The machine on paper, SVG.
     pub picture: String,

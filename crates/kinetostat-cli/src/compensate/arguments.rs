@@ -33,10 +33,10 @@ pub(crate) struct CompensateArgs {
     pub(crate) template: Option<PathBuf>,
     /// Corrections from a table instead of a model: CSV with the columns
     /// x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm on a full grid
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["model", "force", "moment", "load_axes", "milling", "load_at_corners", "below_z_mm", "tool_length_mm", "part_origin_mm", "part_orientation", "tool_orientation", "scale", "report", "pdf", "language", "points"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["model", "force", "moment", "load_axes", "milling", "load_at_corners", "below_z_mm", "tool_length_mm", "part_origin_mm", "part_orientation", "tool_orientation", "scale", "report", "pdf", "language", "part_number", "revision", "points"])]
     pub(crate) map: Option<PathBuf>,
     /// Write the program of a machine as it was read, byte for byte; with --expand its flat form
-    #[arg(long, conflicts_with_all = ["map", "json", "report", "pdf", "language", "points", "again"])]
+    #[arg(long, conflicts_with_all = ["map", "json", "report", "pdf", "language", "part_number", "revision", "points", "again"])]
     pub(crate) no_compensation: bool,
     /// Compensate a program that is marked as compensated once more
     #[arg(long)]

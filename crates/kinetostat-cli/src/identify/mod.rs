@@ -76,7 +76,7 @@ pub(crate) struct IdentifyArgs {
     /// The report with pictures, as one HTML file
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) report: Option<PathBuf>,
-    /// The report without pictures, as PDF
+    /// The report as PDF
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) pdf: Option<PathBuf>,
     #[command(flatten)]

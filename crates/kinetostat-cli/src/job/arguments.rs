@@ -102,12 +102,28 @@ pub(crate) struct ProgramArgs {
     /// The report, one HTML file
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) report: Option<PathBuf>,
-    /// The report without pictures as PDF, to be signed and filed
+    /// The report as PDF, to be signed and filed
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) pdf: Option<PathBuf>,
-    /// Language of the reports [default: en]. In French and German the HTML report is the paper, with two pictures
+    /// Language of the reports [default: en]. In French and German the HTML report is the paper
     #[arg(long, value_enum, value_name = "LANGUAGE", help_heading = "Outputs")]
     pub(crate) language: Option<LanguageWord>,
+    /// Number of the part, for the reports and the result
+    #[arg(
+        long,
+        value_name = "NUMBER",
+        help_heading = "Outputs",
+        allow_hyphen_values = true
+    )]
+    pub(crate) part_number: Option<String>,
+    /// Revision of the part
+    #[arg(
+        long,
+        value_name = "REVISION",
+        help_heading = "Outputs",
+        allow_hyphen_values = true
+    )]
+    pub(crate) revision: Option<String>,
     /// Points of the path as a table: CSV, of long programs the worst of every stretch; Parquet with every point where the name ends
     /// in .parquet
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]

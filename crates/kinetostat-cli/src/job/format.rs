@@ -285,10 +285,14 @@ pub(crate) struct TolerancesTable {
 pub(crate) struct OutputTable {
     pub program: Option<Spanned<String>>,
     pub report: Option<Spanned<String>>,
-    /// The report without pictures as PDF, to be signed and filed.
+    /// The report as PDF, to be signed and filed.
     pub pdf: Option<Spanned<String>>,
     /// Language of the reports.
     pub language: Option<LanguageWord>,
+    /// Number of the part, in the reports and the result.
+    pub part_number: Option<Spanned<String>>,
+    /// Its revision.
+    pub revision: Option<Spanned<String>>,
     pub json: Option<Spanned<String>>,
     pub points: Option<Spanned<String>>,
     /// Path with errors, for ParaView.

@@ -21,6 +21,7 @@ use crate::job::cut::{CutSetup, FilesOfCut, MeasuredSetup, cut_setup, measured_s
 use crate::job::format::WeightWord;
 use crate::job::job_file::{JobFile, model_named};
 use crate::job::load::load;
+use crate::job::part_stated::part_stated;
 use crate::job::placement::{placement, placement_description};
 use crate::job::robot::frames::RobotFrames;
 use crate::job::robot::machine::{
@@ -212,6 +213,7 @@ pub(crate) fn machine_setup(
         run_inputs.model = model.name().to_owned();
         run_inputs.model_source = named.source;
         run_inputs.model_deviations = deviation_descriptions(&model);
+        (run_inputs.part_number, run_inputs.revision) = part_stated(job, flags)?;
         run_inputs.placement = placement_description(&placement);
         run_inputs.tool = tool_words;
         run_inputs.cut = cut.iter().flat_map(|cut| cut.words.clone()).collect();

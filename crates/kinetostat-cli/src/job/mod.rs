@@ -25,6 +25,7 @@ pub(crate) mod machine;
 pub(crate) mod of_model;
 pub(crate) mod output_paths;
 pub(crate) mod over_part;
+mod part_stated;
 pub(crate) mod place_table;
 mod placement;
 pub(crate) mod program;

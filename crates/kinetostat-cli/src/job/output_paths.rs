@@ -64,7 +64,7 @@ pub(crate) enum Form {
 pub(crate) struct OutputPaths {
     pub(crate) program: Option<PathBuf>,
     pub(crate) report: Option<PathBuf>,
-    /// Report without pictures, to be signed.
+    /// Report to be signed.
     pub(crate) pdf: Option<PathBuf>,
     /// Language of both reports.
     pub(crate) language: Option<LanguageWord>,
@@ -177,6 +177,18 @@ pub(crate) fn refuse_unused(flags: &ProgramArgs, targets: &OutputPaths) -> Answe
     if flags.language.is_some() && targets.report.is_none() && targets.pdf.is_none() {
         return Err(ErrorCode::Unused.failure("--language is the language of the reports, and none is asked for: add --report FILE or --pdf FILE",
         ));
+    }
+    let of_part = [
+        ("--part-number", flags.part_number.is_some()),
+        ("--revision", flags.revision.is_some()),
+    ];
+    if let Some((option, _)) = of_part.into_iter().find(|(_, given)| *given)
+        && targets.report.is_none()
+        && targets.pdf.is_none()
+    {
+        return Err(ErrorCode::Unused.failure(format!(
+            "{option} stands in the reports, and none is asked for: add --report FILE or --pdf FILE"
+        )));
     }
     match flags.all_points && targets.points.is_none() {
         true => Err(ErrorCode::Unused.failure(

@@ -20,6 +20,8 @@ use crate::options::{EXIT_CODES, number, whole};
 #[command(mut_arg("report", |arg| arg.hide(true)))]
 #[command(mut_arg("pdf", |arg| arg.hide(true)))]
 #[command(mut_arg("language", |arg| arg.hide(true)))]
+#[command(mut_arg("part_number", |arg| arg.hide(true)))]
+#[command(mut_arg("revision", |arg| arg.hide(true)))]
 #[command(mut_arg("points", |arg| arg.hide(true)))]
 #[command(mut_arg("all_points", |arg| arg.hide(true)))]
 #[command(mut_arg("restart", |arg| arg.hide(true)))]

@@ -188,7 +188,8 @@ impl RunOutputs {
         }
         let of = Paper::of(&run.result)
             .in_language(self.language)
-            .with_written(made);
+            .with_written(made)
+            .with_machine(machine);
         if let Some(index) = self.pdf {
             self.files.fill(index, &paper::pdf(&of)?)?;
         }

@@ -13,7 +13,7 @@ use crate::shown::path::{AtPlace, ShownPath};
 use crate::shown::session::Session;
 use crate::ui::failure::Answer;
 
-/// The machine for the report of a run, if one is written that shows it; none of a run without places on cutting moves.
+/// The machine for the reports of a run, if one is written that shows it; none of a run without places on cutting moves.
 pub(crate) fn of_run(
     outputs: &RunOutputs,
     setting: &Setting,
@@ -21,7 +21,8 @@ pub(crate) fn of_run(
     model: &Model,
     run: &Run,
 ) -> Answer<Option<MachineShown>> {
-    if outputs.report.is_none() || outputs.language != Language::English {
+    let is_asked = outputs.report.is_some() || outputs.pdf.is_some();
+    if !is_asked || outputs.language != Language::English {
         return Ok(None);
     }
     let mechanism = &machine.mechanism;
@@ -54,7 +55,10 @@ pub(crate) fn of_run(
         ..StateRequest::default()
     };
     Ok(Some(MachineShown {
-        page: session.page(&start, false)?,
+        page: match outputs.report {
+            Some(_) => session.page(&start, false)?,
+            None => String::new(),
+        },
         picture,
         line,
     }))

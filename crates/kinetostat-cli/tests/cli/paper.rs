@@ -272,3 +272,48 @@ fn the_tool_stands_in_the_angles_of_its_controller() {
         "{tool}"
     );
 }
+
+#[test]
+fn number_and_revision_of_the_part_stand_in_reports_and_result() {
+    let here = workplace();
+    let here = here.path();
+    let job = std::fs::read_to_string(here.join("job.toml")).expect("a job");
+    std::fs::write(
+        here.join("job.toml"),
+        format!("{job}part_number = \"4711-02 <A>\"\nrevision = \"C\"\n"),
+    )
+    .expect("written");
+    for (language, name) in [
+        ("en", "Part number"),
+        ("de", "Teilenummer"),
+        ("fr", "Numéro de la pièce"),
+    ] {
+        let line = format!(
+            "compensate job.toml --language {language} --report r.html --pdf r.pdf --json r.json --force-overwrite --revision D"
+        );
+        let words: Vec<&str> = line.split(' ').collect();
+        run(here, &words).answered();
+        let page = std::fs::read_to_string(here.join("r.html")).expect("a page");
+        assert!(
+            page.contains(name) && page.contains("4711-02 &lt;A&gt;"),
+            "{language}"
+        );
+        let result = std::fs::read_to_string(here.join("r.json")).expect("a result");
+        let result: serde_json::Value = serde_json::from_str(&result).expect("JSON");
+        let inputs = &result["question"];
+        // An option goes before the job.
+        assert_eq!(
+            (&inputs["part_number"], &inputs["revision"]),
+            (&"4711-02 <A>".into(), &"D".into())
+        );
+        if let Some(lines) = lines_of_pdf(&here.join("r.pdf")) {
+            assert!(
+                lines.iter().any(|line| line.contains("4711-02<A>")),
+                "{language}"
+            );
+        }
+    }
+    let said = run(here, &["check", "job.toml", "--part-number", "two\nlines"]);
+    assert_eq!(said.code, 1);
+    assert!(said.err.contains("--part-number"), "{}", said.err);
+}

@@ -153,6 +153,12 @@ pub struct RunInputs {
     pub model_deviations: Vec<String>,
     /// File name of the program.
     pub program: String,
+    /// Number of the part that is made, as the user states it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub part_number: Option<String>,
+    /// Revision of the part.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub revision: Option<String>,
     /// The flat program that the run goes along, where the program was run once and written flat.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flat: Option<FlatProgram>,

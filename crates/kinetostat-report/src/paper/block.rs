@@ -38,7 +38,7 @@ pub(crate) enum Block {
     /// Names with a size and an explanation.
     Remarks(Vec<Remark>),
     List(Vec<String>),
-    /// A drawing (SVG) and what it shows; a PDF has none.
+    /// A drawing (SVG, a document of its own) and what it shows.
     Picture {
         svg: String,
         shows: String,

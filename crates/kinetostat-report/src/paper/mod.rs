@@ -1,4 +1,4 @@
-//! A paper to be signed and filed: the report of a run in English, French or German, as HTML with two pictures or as PDF without.
+//! A paper to be signed and filed: the report of a run in English, French or German, as HTML or as PDF.
 //!
 //! - `content` says what stands in it and in which order, from a run's result alone; nothing is computed anew.
 //! - `words` has the texts of each language, `language` how it writes numbers.

@@ -2,6 +2,7 @@
 
 use kinetostat_machining::{FileRead, RunResult};
 
+use crate::MachineShown;
 use crate::paper::language::Language;
 
 /// Request for a paper on a run.
@@ -20,6 +21,7 @@ pub struct Paper<'a> {
     pub(crate) language: Language,
     pub(crate) written: Vec<FileRead>,
     pub(crate) verified: Option<VerifiedProgram>,
+    pub(crate) machine: Option<&'a MachineShown>,
 }
 
 /// Results of `verify` in addition to a run: the run's errors before are those of the original, its errors after those
@@ -51,6 +53,7 @@ impl<'a> Paper<'a> {
             language: Language::English,
             written: Vec::new(),
             verified: None,
+            machine: None,
         }
     }
 
@@ -64,6 +67,12 @@ impl<'a> Paper<'a> {
     #[must_use]
     pub fn with_written(self, written: Vec<FileRead>) -> Self {
         Self { written, ..self }
+    }
+
+    /// Adds the drawing of the machine; its own words are English.
+    #[must_use]
+    pub fn with_machine(self, machine: Option<&'a MachineShown>) -> Self {
+        Self { machine, ..self }
     }
 
     /// Adds the results of a verified program.

@@ -106,6 +106,35 @@ fn pages_in_every_language_have_pictures_in_its_words() {
     }
 }
 
+#[cfg(feature = "pdf")]
+#[test]
+fn pages_of_a_pdf_have_the_pictures() {
+    use crate::paper::block::Block;
+    use crate::paper::typeset::pictures_of;
+    let result = run();
+    for language in [Language::English, Language::German, Language::French] {
+        // Letters that the paper has none of, in a drawing.
+        let machine = crate::MachineShown {
+            page: String::new(),
+            picture: "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 400 300\" width=\"400\" height=\"300\"><style>text{font-family:system-ui,sans-serif}</style><text x=\"9\" y=\"20\">中 ↑ Ж</text></svg>\n".to_owned(),
+            line: 7,
+        };
+        let paper = Paper::of(&result)
+            .in_language(language)
+            .with_machine(Some(&machine));
+        assert!(paper.pdf().is_ok());
+        let contents = contents(&paper, &Shown::of_result(&result));
+        let is_picture = |block: &&Block| matches!(block, Block::Picture { .. });
+        let wanted = contents.blocks.iter().filter(is_picture).count();
+        let found = pictures_of(&contents);
+        assert_eq!((found.len(), wanted), (3, 3));
+        for [x, y, width, height] in found {
+            assert!(width > 200.0 && height > 150.0, "{width} {height}");
+            assert!(x >= 62.0 && x + width <= 548.0 && y >= 66.0 && y + height <= 782.0);
+        }
+    }
+}
+
 #[test]
 fn every_language_states_the_same_figures() {
     let result = run();

@@ -452,8 +452,16 @@ pub(crate) fn heading(result: &Shown<'_>) -> Vec<Value> {
     if let Some(date) = &run_inputs.date {
         rows.push(fact("Date", text::shorten(date, 20)));
     }
+    rows.extend([fact("Program", first_screen(&run_inputs.program))]);
+    let part = [
+        ("Part number", &run_inputs.part_number),
+        ("Revision", &run_inputs.revision),
+    ];
+    rows.extend(
+        part.into_iter()
+            .filter_map(|(name, text)| Some(fact(name, text.clone()?))),
+    );
     rows.extend([
-        fact("Program", first_screen(&run_inputs.program)),
         fact("Machine", first_screen(&run_inputs.model)),
         fact("Load", first_screen(&run_inputs.load)),
     ]);

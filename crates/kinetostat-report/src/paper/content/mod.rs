@@ -179,6 +179,14 @@ fn head(of: &Of<'_>) -> Vec<Fact> {
     if let Some(verified) = &of.paper.verified {
         facts.push(fact(words.original, of.text(&verified.original)));
     }
+    let part = [
+        (words.part_number, &inputs.part_number),
+        (words.revision, &inputs.revision),
+    ];
+    let stated = part
+        .into_iter()
+        .filter_map(|(name, text)| Some(fact(name, of.text(text.as_ref()?))));
+    facts.extend(stated);
     facts.push(fact(words.machine, of.text(&inputs.model)));
     facts
 }

@@ -1,4 +1,4 @@
-//! Pictures of a paper: the error along the path, and the path from above. HTML shows them, PDF leaves them out.
+//! Pictures of a paper: the error along the path, and the path from above, the machine.
 
 use kinetostat_machining::{PointKind, PointResult, Quantity};
 
@@ -11,11 +11,18 @@ use crate::paper::language::Language;
 use crate::paper::words::table::fill;
 use crate::run::plan;
 
-/// Both pictures; none without a path.
+/// The plots, and the machine where it is drawn; none without a path.
 pub(super) fn pictures(of: &Of<'_>) -> Vec<Block> {
     let Some(along) = of.result.along() else {
         return Vec::new();
     };
+    let machine = of.paper.machine.map(|machine| {
+        let line = number::count(machine.line);
+        Block::Picture {
+            svg: machine.picture.clone(),
+            shows: fill(of.words.picture_machine, &[("line", line.as_str())]),
+        }
+    });
     let look = |shape: bool| Look {
         shape,
         comma: of.language != Language::English,
@@ -38,15 +45,15 @@ pub(super) fn pictures(of: &Of<'_>) -> Vec<Block> {
         .collect();
     let plots: Vec<_> = plots.iter().map(|plot| (plot, look(false))).collect();
     let above = above(of);
-    [
+    let plots = [
         (stacked(&plots, ""), words.picture_along),
         (stacked(&[(&above, look(true))], ""), words.picture_above),
     ]
     .map(|(svg, shows)| Block::Picture {
         svg,
         shows: shows.to_owned(),
-    })
-    .to_vec()
+    });
+    plots.into_iter().chain(machine).collect()
 }
 
 fn error(

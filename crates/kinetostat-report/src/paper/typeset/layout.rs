@@ -4,6 +4,7 @@ use kinetostat_machining::Level;
 
 use crate::paper::block::{Block, Contents, Remark};
 use crate::paper::typeset::letters::{Letters, Weight};
+use crate::paper::typeset::pictures::Picture;
 
 /// A4.
 pub(super) const WIDTH: f32 = 595.28;
@@ -46,6 +47,12 @@ pub(super) enum Mark {
         width: f32,
         height: f32,
         colour: [u8; 3],
+    },
+    /// A drawing.
+    Picture {
+        at: [f32; 2],
+        size: [f32; 2],
+        picture: Picture,
     },
 }
 
@@ -157,10 +164,7 @@ impl<'a> Setter<'a> {
                 self.text(text, LEFT, RIGHT, SIZE, Weight::Regular);
                 self.y += 4.0;
             }
-            Block::Note(text) => {
-                self.text(text, LEFT, RIGHT, SMALL, Weight::Regular);
-                self.y += 4.0;
-            }
+            Block::Note(text) => self.caption(text),
             Block::Verdict {
                 level,
                 word,
@@ -184,10 +188,16 @@ impl<'a> Setter<'a> {
                     self.y += 2.0;
                 }
             }
-            Block::Picture { .. } => {}
+            Block::Picture { svg, shows } => self.picture(svg, shows),
             Block::Table(table) => self.table(table),
             Block::Signatures(all) => self.signatures(all),
         }
+    }
+
+    /// Small print.
+    pub(super) fn caption(&mut self, text: &str) {
+        self.text(text, LEFT, RIGHT, SMALL, Weight::Regular);
+        self.y += 4.0;
     }
 
     /// A name, and beside it what is said of it.

@@ -5,8 +5,11 @@ use skrifa::instance::{LocationRef, Size};
 use skrifa::metrics::GlyphMetrics;
 use skrifa::{FontRef, MetadataProvider};
 
-static REGULAR: &[u8] = include_bytes!("../../../fonts/NotoSans-Regular.ttf");
-static BOLD: &[u8] = include_bytes!("../../../fonts/NotoSans-Bold.ttf");
+pub(super) static REGULAR: &[u8] = include_bytes!("../../../fonts/NotoSans-Regular.ttf");
+pub(super) static BOLD: &[u8] = include_bytes!("../../../fonts/NotoSans-Bold.ttf");
+
+/// Name of both.
+pub(super) const FAMILY: &str = "Noto Sans";
 
 /// A kind of letters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

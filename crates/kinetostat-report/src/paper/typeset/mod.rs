@@ -2,6 +2,7 @@
 
 mod layout;
 mod letters;
+mod pictures;
 mod tables;
 
 use krilla::Document;
@@ -70,6 +71,18 @@ pub(crate) fn pdf(contents: &Contents) -> Result<Vec<u8>, ReportError> {
         .map_err(|error| fault(format!("{error:?}")))
 }
 
+/// Place and size of every drawing: left, top, width, height.
+#[cfg(test)]
+pub(crate) fn pictures_of(contents: &Contents) -> Vec<[f32; 4]> {
+    let letters = Letters::new().expect("the letters can be read");
+    let pages = Setter::pages(&letters, contents);
+    let place = |mark: &Mark| match mark {
+        Mark::Picture { at, size, .. } => Some([at[0], at[1], size[0], size[1]]),
+        _ => None,
+    };
+    pages.iter().flatten().filter_map(place).collect()
+}
+
 /// `2026-11-20`.
 fn day(text: &str) -> Option<DateTime> {
     let mut parts = text.splitn(3, '-');
@@ -132,6 +145,7 @@ fn draw(surface: &mut Surface<'_>, letters: &Letters, mark: &Mark) {
             let start = Point::from_xy(*x, *y);
             surface.draw_glyphs(start, &glyphs, letters.font(*weight), text, *size, false);
         }
+        Mark::Picture { at, size, picture } => picture.draw(surface, *at, *size),
         Mark::Area {
             x,
             y,

@@ -46,6 +46,8 @@ pub(crate) struct Words {
     pub(crate) date: &'static str,
     pub(crate) program: &'static str,
     pub(crate) original: &'static str,
+    pub(crate) part_number: &'static str,
+    pub(crate) revision: &'static str,
     pub(crate) machine: &'static str,
     pub(crate) model_from: &'static str,
     pub(crate) deviations: &'static str,
@@ -97,6 +99,8 @@ pub(crate) struct Words {
     /// Pictures: what they show, their axes and lines.
     pub(crate) picture_along: &'static str,
     pub(crate) picture_above: &'static str,
+    /// The machine at `{line}`.
+    pub(crate) picture_machine: &'static str,
     pub(crate) along_path: &'static str,
     pub(crate) distance: &'static str,
     pub(crate) programmed: &'static str,
