@@ -11,7 +11,7 @@ use crate::paper::typeset::layout::{BOTTOM, HEIGHT, LEFT, Mark, RIGHT, Setter, T
 use crate::paper::typeset::letters::{BOLD, FAMILY, Letters, REGULAR};
 
 /// Largest height of a drawing.
-const TALLEST: f32 = 385.0;
+const TALLEST: f32 = 360.0;
 
 /// A drawing that was read.
 #[derive(Clone, Debug)]
