@@ -44,6 +44,8 @@ pub(crate) struct MachineAnswer {
     pub(crate) variables: Vec<MapVariable>,
     /// True if the model states how vibrations are damped.
     pub(crate) is_damped: bool,
+    /// The model file.
+    pub(crate) model_text: String,
     pub(crate) version: &'static str,
 }
 

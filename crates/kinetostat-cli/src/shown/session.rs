@@ -79,6 +79,7 @@ impl Session {
             has_path: self.program.is_some(),
             variables: variables(&posture, &self.model.ratings()),
             is_damped: !matches!(self.model.damping(), Damping::Undamped),
+            model_text: self.model.text.clone(),
             version: env!("CARGO_PKG_VERSION"),
         })
     }

@@ -20,6 +20,8 @@ export interface Machine {
   variables: { name: string; unit: string; description: string }[];
   /** True if the model states how vibrations are damped. */
   is_damped: boolean;
+  /** The model file. */
+  model_text: string;
   version: string;
 }
 

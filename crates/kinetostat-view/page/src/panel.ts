@@ -1,6 +1,6 @@
 // The panel beside the machine: joints, tool, load, figures, and what can be copied.
 
-import { hasAddress } from "./address";
+import { hasAddress, isEmbedded } from "./address";
 import type { State, Vec3 } from "./api";
 import { limbValues } from "./byvalue";
 import { byShare } from "./colour";
@@ -158,7 +158,7 @@ export class Panel {
       section("Figures", this.nearby, this.figures),
       section("What bends", this.shares),
       ...this.computations.map((own) => own.computation.section),
-      element("div", { class: "row" }, ...(hasAddress() ? [this.copy("Copy link", () => store.link())] : []), this.copy("Copy command", () => store.state?.cli ?? ""), this.copy("Copy Python", () => store.state?.python ?? ""), this.picture(), this.said),
+      element("div", { class: "row" }, ...(hasAddress() ? [this.copy("Copy link", () => store.link())] : []), this.copy("Copy command", () => store.state?.cli ?? ""), this.copy("Copy Python", () => store.state?.python ?? ""), this.picture(), ...(isEmbedded() ? [] : [this.saveModel()]), this.said),
       ...(source.opens ? [opening(source)] : []),
       element("p", { class: "unit" }, `kinetostat ${machine.version}`),
     );
@@ -204,6 +204,15 @@ export class Panel {
 
   private copy(words: string, text: () => string): HTMLElement {
     return copyButton(words, text, (said) => (this.said.textContent = said));
+  }
+
+  private saveModel(): HTMLElement {
+    const { machine } = this.store;
+    return button("Save model", () => {
+      const href = URL.createObjectURL(new Blob([machine.model_text], { type: "text/plain" }));
+      element("a", { href, download: `${machine.name}.toml` }).click();
+      URL.revokeObjectURL(href);
+    });
   }
 
   private picture(): HTMLElement {

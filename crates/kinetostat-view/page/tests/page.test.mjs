@@ -86,6 +86,13 @@ test("figures are those of deflect, by typing, by keys and by a link", async () 
   await page.locator("dd", { hasText: said.displacement_size_mm.toPrecision(4) }).first().waitFor();
   const detail = `(${said.displacement_mm.map((x) => x.toFixed(4)).join(", ")}) mm`;
   assert.ok((await figure(page, "Displacement of the tool")).includes(detail));
+  // The model is a file that the command reads.
+  const download = page.waitForEvent("download");
+  await page.getByRole("button", { name: "Save model" }).click();
+  const saved = join(folder, "saved.toml");
+  await (await download).saveAs(saved);
+  const again_said = JSON.parse(spawnSync(command, ["deflect", saved, ...words.slice(2)], { encoding: "utf8" }).stdout);
+  assert.deepEqual(again_said.displacement_mm, said.displacement_mm);
   // The state is a link.
   const again = await opened(page.url());
   assert.equal(await figure(again, "Displacement of the tool"), await figure(page, "Displacement of the tool"));
