@@ -27,14 +27,16 @@ pub enum Error {
         first_hz: f64,
     },
     /// A setting that nothing can be done with.
-    #[error("{what} is {found}, {required} is needed")]
+    #[error("{what} is {found}; {low} to {high} are allowed")]
     Setting {
         /// Name of the setting.
         what: &'static str,
         /// Value found.
         found: f64,
-        /// Values that are allowed.
-        required: &'static str,
+        /// Smallest value allowed.
+        low: f64,
+        /// Largest value allowed.
+        high: f64,
     },
 }
 

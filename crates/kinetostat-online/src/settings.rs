@@ -121,132 +121,103 @@ impl PlanSettings {
     /// Refuses what no cycle can work with.
     pub(crate) fn check(&self) -> Result<()> {
         let l = &self.limits;
-        let positive = [
-            ("the period (s)", self.period),
-            ("the largest age of an input (s)", self.most_age),
-            ("the largest correction (m)", l.position),
-            ("the largest rotation (rad)", l.rotation),
-            ("the largest speed (m/s)", l.speed),
-            ("the largest acceleration (m/s^2)", l.acceleration),
-            ("the largest angular speed (rad/s)", l.angular_speed),
+        let least = f64::MIN_POSITIVE;
+        check(&[
+            ("the period (s)", self.period, 1e-6, 0.1),
+            ("the largest age of an input (s)", self.most_age, least, 1e3),
+            ("the longest hold (s)", self.hold, 0.0, 0.020),
+            ("the largest correction (m)", l.position, least, 1e3),
+            ("the largest rotation (rad)", l.rotation, least, 1e3),
+            ("the largest speed (m/s)", l.speed, least, 1e9),
+            (
+                "the largest acceleration (m/s^2)",
+                l.acceleration,
+                least,
+                1e9,
+            ),
+            (
+                "the largest angular speed (rad/s)",
+                l.angular_speed,
+                least,
+                1e9,
+            ),
             (
                 "the largest angular acceleration (rad/s^2)",
                 l.angular_acceleration,
+                least,
+                1e9,
             ),
-            ("the largest speed of a joint", l.joint_speed),
-            ("the largest force (N)", l.force),
-            ("the largest moment (N m)", l.moment),
-        ];
-        for (what, found) in positive {
-            within(what, found, f64::MIN_POSITIVE..=1e9, "a positive number")?;
-        }
-        within("the longest hold (s)", self.hold, 0.0..=0.020, "0 to 0.020")?;
-        within("the period (s)", self.period, 1e-6..=0.1, "1e-6 to 0.1")?;
+            ("the largest speed of a joint", l.joint_speed, least, 1e9),
+            ("the largest force (N)", l.force, least, 1e12),
+            ("the largest moment (N m)", l.moment, least, 1e12),
+        ])?;
         if let Some(probe) = &self.probe {
-            let most = 0.2e-3 / f64::from(probe.cycles.max(1));
-            within(
-                "the amplitude of the probe (m)",
-                probe.amplitude,
-                1e-7..=most,
-                "1e-7 to 0.2 mm by its cycles",
-            )?;
-            within(
-                "the amplitude of the probe (m)",
-                probe.amplitude,
-                0.0..=l.speed * self.period * (1.0 + 1e-9),
-                "at most the largest speed times the period",
-            )?;
-            let length = probe.direction.norm();
-            within(
-                "the length of the probe's direction",
-                length,
-                1e-9..=1e9,
-                "a direction",
-            )?;
+            // The sum of its steps stays below 0.25 mm, and each one is within the limit of speed.
+            let sum = 0.2e-3 / f64::from(probe.cycles.max(1));
+            let most = sum.min(l.speed * self.period) * (1.0 + 1e-9);
+            check(&[
+                (
+                    "the amplitude of the probe (m)",
+                    probe.amplitude,
+                    1e-7,
+                    most,
+                ),
+                (
+                    "the length of the probe's direction",
+                    probe.direction.norm(),
+                    1e-9,
+                    1e9,
+                ),
+            ])?;
         }
         if let Some(sensor) = &self.sensor {
             sensor.check(self.period)?;
         }
-        if let Some(drive) = &self.drive {
-            within(
-                "the lag of the drives (s)",
-                drive.lag,
-                1e-6..=10.0,
-                "1e-6 to 10",
-            )?;
-            within(
-                "the damping of the first mode",
-                drive.damping,
-                0.0..=10.0,
-                "0 to 10",
-            )?;
-        }
-        Ok(())
+        self.drive.map_or(Ok(()), |drive| {
+            check(&[
+                ("the lag of the drives (s)", drive.lag, 1e-6, 10.0),
+                ("the damping of the first mode", drive.damping, 0.0, 10.0),
+            ])
+        })
     }
 }
 
 impl Sensor {
     fn check(&self, period: f64) -> Result<()> {
         let (f, first) = (self.cutoff_hz, self.first_frequency_hz);
-        within(
-            "the first natural frequency (Hz)",
-            first,
-            1e-3..=1e6,
-            "a positive number",
-        )?;
-        within(
-            "the cutoff of the low pass (Hz)",
-            f,
-            1e-3..=0.2 / period,
-            "1e-3 to a fifth of the rate",
-        )?;
-        within(
-            "the mass beyond the sensor (kg)",
-            self.mass,
-            0.0..=1e6,
-            "0 or more",
-        )?;
-        for x in self.centre_of_mass.iter().chain(self.gravity.iter()) {
-            within(
-                "a number of the sensor's weight",
-                *x,
-                -1e6..=1e6,
-                "a finite number",
-            )?;
-        }
-        for x in self.tool_from_sensor.to_homogeneous().iter() {
-            within(
-                "a number of the sensor's frame",
-                *x,
-                -1e6..=1e6,
-                "a finite number",
-            )?;
-        }
-        for x in self.process_stiffness.iter().flat_map(|k| k.iter()) {
-            within("the process stiffness (N/m)", *x, 0.0..=1e12, "0 or more")?;
-        }
-        if f > 0.25 * first {
-            return Err(Error::FilterTooFast {
+        let frame = self.tool_from_sensor.to_homogeneous();
+        let weight = self.centre_of_mass.iter().chain(self.gravity.iter());
+        let numbers = frame.iter().chain(weight);
+        let numbers = numbers.map(|x| ("a number of the sensor's frame or weight", *x, -1e6, 1e6));
+        let process = self.process_stiffness.iter().flat_map(|k| k.iter());
+        let process = process.map(|k| ("the process stiffness (N/m)", *k, 0.0, 1e12));
+        check(&numbers.chain(process).collect::<Vec<_>>())?;
+        check(&[
+            ("the first natural frequency (Hz)", first, 1e-3, 1e6),
+            ("the cutoff of the low pass (Hz)", f, 1e-3, 0.2 / period),
+            ("the mass beyond the sensor (kg)", self.mass, 0.0, 1e6),
+        ])?;
+        match f > 0.25 * first {
+            true => Err(Error::FilterTooFast {
                 cutoff_hz: f,
                 first_hz: first,
-            });
+            }),
+            false => Ok(()),
         }
-        Ok(())
     }
 }
 
-fn within(
-    what: &'static str,
-    found: f64,
-    range: std::ops::RangeInclusive<f64>,
-    required: &'static str,
-) -> Result<()> {
-    if range.contains(&found) {
-        return Ok(());
-    }
-    Err(Error::Setting {
-        what,
-        found,
-        required,
+/// Refuses the first number outside its range.
+fn check(numbers: &[(&'static str, f64, f64, f64)]) -> Result<()> {
+    let mut wrong = numbers
+        .iter()
+        .filter(|(_, x, low, high)| !(*low..=*high).contains(x));
+    wrong.next().map_or(Ok(()), |&(what, found, low, high)| {
+        Err(Error::Setting {
+            what,
+            found,
+            low,
+            high,
+        })
     })
 }

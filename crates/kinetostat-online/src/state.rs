@@ -1,13 +1,14 @@
 //! The state: what a compensation remembers from cycle to cycle, and all of its buffers.
 
-use kinetostat::spatial::{Pose, Twist};
+use kinetostat::spatial::{Twist, moved};
 
 use crate::error::{Error, Result};
 use crate::input::{Command, MOST_JOINTS};
 use crate::limiter::Follower;
 use crate::low_pass::LowPassState;
 use crate::machine::equilibrium::MachineState;
-use crate::machine::limb::LimbState;
+use crate::machine::forward::Forward;
+use crate::machine::joints::Joints;
 use crate::plan::Plan;
 use crate::probe::Probe;
 use crate::sensor::SensorState;
@@ -22,6 +23,8 @@ pub struct State {
     pub(crate) filter: LowPassState,
     pub(crate) supervisor: Supervisor,
     pub(crate) probe: Probe,
+    /// What is sent is, or was last, the request of a probe.
+    pub(crate) is_probing: bool,
     /// Correction that the model wanted last, and what it leaves over.
     pub(crate) wanted: Twist,
     pub(crate) left_over: Twist,
@@ -48,19 +51,19 @@ impl Plan {
 
 impl State {
     fn new(plan: &Plan) -> Result<Self> {
-        let unsupported = || Error::Unsupported {
+        let machine = MachineState::new(&plan.machine).ok_or_else(|| Error::Unsupported {
             machine: plan.name().to_owned(),
             reason: "a spring has no stiffness at rest".into(),
-        };
-        let machine = MachineState::new(&plan.machine).ok_or_else(unsupported)?;
+        })?;
         Ok(Self {
             plan: plan.id,
-            joints: JointCorrection::new(plan).ok_or_else(unsupported)?,
+            joints: JointCorrection::new(plan),
             machine,
             sensor: SensorState::default(),
             filter: LowPassState::default(),
             supervisor: Supervisor::default(),
             probe: Probe::new(),
+            is_probing: false,
             wanted: Twist::zero(),
             left_over: Twist::zero(),
             goal: Twist::zero(),
@@ -89,7 +92,7 @@ impl State {
 /// The correction of the joints: nominal inverse kinematics at the pose that is sent, followed from cycle to cycle.
 #[derive(Clone, Debug)]
 pub(crate) struct JointCorrection {
-    limbs: Vec<LimbState>,
+    limbs: Vec<Joints>,
     /// Joints less those of the program.
     pub at: [f64; MOST_JOINTS],
 }
@@ -98,44 +101,44 @@ pub(crate) struct JointCorrection {
 const STEPS: usize = 3;
 
 impl JointCorrection {
-    fn new(plan: &Plan) -> Option<Self> {
-        let limbs: Option<Vec<_>> = plan.machine.limbs.iter().map(|limb| limb.start()).collect();
-        Some(Self {
-            limbs: limbs?,
+    fn new(plan: &Plan) -> Self {
+        let limbs = plan.machine.limbs.iter();
+        Self {
+            limbs: limbs.map(|limb| Joints::new(limb, true)).collect(),
             at: [0.0; MOST_JOINTS],
-        })
+        }
     }
 
     pub(crate) fn is_at_rest(&self) -> bool {
         self.at == [0.0; MOST_JOINTS]
     }
 
-    /// Follows a pose near that of the joints; passive joints begin where the program has them. True if a joint was
-    /// held back by its speed or the pose is singular.
+    /// Follows a pose near that of the program. True if a joint was held back by its speed, or the posture is singular and
+    /// they stay.
     pub(crate) fn follow(
         &mut self,
         plan: &Plan,
-        machine: &MachineState,
+        forward: &Forward,
         joints: &[f64],
         sent: &Twist,
     ) -> bool {
-        let pose: Pose = kinetostat::spatial::moved(&machine.forward.pose, sent);
+        let pose = moved(&forward.pose, sent);
         let most = plan.settings.limits.joint_speed * plan.settings.period;
         let is_zero = *sent == Twist::zero();
         let mut held = false;
         for (index, (limb, own)) in self.limbs.iter_mut().zip(&plan.machine.limbs).enumerate() {
-            limb.drawn
-                .copy_from_slice(machine.forward.coordinates(index));
+            limb.coordinates.copy_from_slice(forward.coordinates(index));
             for (command, joint) in limb.commands.iter_mut().zip(own.joints.clone()) {
                 *command = joints[joint] + self.at[joint];
             }
-            let mut found = is_zero || limb.factor_joints(own);
+            let mut found = is_zero || limb.factor(own);
             if found && !is_zero {
                 for _ in 0..STEPS {
                     limb.follow(own, &pose);
                 }
-                found = limb.is_sound(own);
+                found = limb.is_finite();
             }
+            held |= !found;
             for (command, joint) in limb.commands.iter().zip(own.joints.clone()) {
                 let goal = match (is_zero, found) {
                     (true, _) => 0.0,
@@ -143,9 +146,8 @@ impl JointCorrection {
                     (_, false) => self.at[joint],
                 };
                 let step = goal - self.at[joint];
-                let is_fast = step.abs() > most;
-                held |= is_fast || !found;
-                self.at[joint] = match is_fast {
+                held |= step.abs() > most;
+                self.at[joint] = match step.abs() > most {
                     true => self.at[joint] + most.copysign(step),
                     false => goal,
                 };

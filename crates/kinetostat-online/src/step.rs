@@ -31,7 +31,7 @@ pub fn step(plan: &Plan, state: &mut State, input: &Input) -> Output {
             .unwrap_or(Reason::None);
     }
     supervise(plan, state, input, cycle.finding);
-    cycle.send(plan, state, input);
+    cycle.send(plan, state);
     let sent = state.correction();
     if input.joints.iter().all(|x| x.is_finite()) {
         let State {
@@ -39,7 +39,7 @@ pub fn step(plan: &Plan, state: &mut State, input: &Input) -> Output {
             machine,
             ..
         } = state;
-        cycle.clamped.joints = own.follow(plan, machine, joints, &sent);
+        cycle.clamped.joints = own.follow(plan, &machine.forward, joints, &sent);
     }
     cycle.output(state)
 }
@@ -54,7 +54,7 @@ fn check(plan: &Plan, state: &mut State, input: &Input) -> Reason {
         state.last_sequence = Some(input.sequence);
     }
     if let (true, Some(last)) = (advances, last) {
-        state.lost += input.sequence - last - 1;
+        state.lost = state.lost.saturating_add(input.sequence - last - 1);
     }
     let measured = input.measured.unwrap_or_default();
     let mut numbers = input.joints[..plan.joints()]
@@ -130,6 +130,11 @@ fn supervise(plan: &Plan, state: &mut State, input: &Input, finding: Reason) {
         state.probe = Probe::new();
         state.goal = Twist::zero();
     }
+    state.is_probing = match state.mode() {
+        Mode::Armed => true,
+        Mode::Ramp => state.is_probing,
+        _ => false,
+    };
 }
 
 /// What one cycle finds out.
@@ -213,7 +218,7 @@ impl Cycle {
     }
 
     /// Moves the correction towards its target by the limits of size and rate.
-    fn send(&mut self, plan: &Plan, state: &mut State, input: &Input) {
+    fn send(&mut self, plan: &Plan, state: &mut State) {
         let limits = &plan.settings.limits;
         let period = plan.settings.period;
         match (state.mode(), self.fresh) {
@@ -227,8 +232,8 @@ impl Cycle {
             (Mode::Shadow | Mode::Off | Mode::Ramp, _) => state.goal = Twist::zero(),
         }
         let (linear, angular) = (state.goal.linear(), state.goal.angular());
-        if state.mode() == Mode::Armed && input.observed.is_some() {
-            // The probe is a step: it has to be seen within its ten cycles.
+        if state.is_probing {
+            // A step in and a step out: a relative object sums up every cycle of a ramp.
             state.linear.step_to(&linear, &plan.linear, period);
         } else {
             self.clamped.rate |= state.linear.follow(&linear, &plan.linear, period);

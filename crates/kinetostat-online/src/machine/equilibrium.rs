@@ -13,13 +13,15 @@ use kinetostat::spatial::{Pose, Twist, Wrench, moved, pose_residual, shift_matri
 use nalgebra::{Matrix6, Vector6};
 
 use crate::machine::forward::Forward;
-use crate::machine::limb::{LimbPlan, LimbState, MOST_PASSIVE};
-use crate::machine::model::MachinePlan;
+use crate::machine::limb::LimbState;
+use crate::machine::model::{LimbPlan, MOST_PASSIVE, MachinePlan};
 
 /// Passes of one cycle at most.
 pub const MOST_PASSES: u32 = 8;
 /// Change of a pass below which the state is the equilibrium, as a share of the natural length.
 const PRECISION: f64 = 1e-12;
+/// A motion of the program in one cycle above which passive joints are taken along, as a share of the natural length.
+const JUMP: f64 = 0.01;
 
 /// State of a machine and its buffers.
 #[derive(Clone, Debug)]
@@ -52,11 +54,12 @@ pub(crate) enum Solved {
 impl MachineState {
     /// State at home; `None` if a spring has no compliance.
     pub(crate) fn new(plan: &MachinePlan) -> Option<Self> {
-        let limbs: Option<Vec<LimbState>> = plan.limbs.iter().map(LimbPlan::start).collect();
+        let limbs: Option<Vec<LimbState>> = plan.limbs.iter().map(LimbState::new).collect();
         let limbs = limbs?;
+        let home = limbs.iter().flat_map(|l| &l.joints.commands);
         Some(Self {
             forward: Forward::new(plan),
-            joints: limbs.iter().flat_map(|l| l.commands.clone()).collect(),
+            joints: home.copied().collect(),
             limbs,
             target: plan.home,
             tool: plan.home,
@@ -67,77 +70,70 @@ impl MachineState {
     }
 
     /// Follows the joints of the program and factors the machine there. False where the loops do not close (yet) or the
-    /// machine is singular.
+    /// machine is singular; the next cycle then begins anew from the unloaded machine.
     pub(crate) fn prepare(&mut self, plan: &MachinePlan, joints: &[f64]) -> bool {
         let before = self.forward.pose;
         if !self.forward.follow(plan, joints) {
             return false;
         }
-        // The target goes along with the program.
-        let correction = pose_residual(&self.target, &before);
-        let (correction, _) = plan.split(&correction);
-        self.target = moved(&self.forward.pose, &correction);
-        let mut stiffness = Matrix6::zeros();
+        // The target goes along with the program, and so does the tool of a machine whose limbs lead it.
+        let program = self.forward.pose;
+        let (correction, _) = plan.split(&pose_residual(&self.target, &before));
+        self.target = moved(&program, &correction);
+        let jump = pose_residual(&program, &before);
+        let jumps = size(&jump.0, plan.length) > JUMP * plan.length;
         for (index, (limb, own)) in self.limbs.iter_mut().zip(&plan.limbs).enumerate() {
-            for (command, joint) in limb.commands.iter_mut().zip(own.joints.clone()) {
+            for (command, joint) in limb.joints.commands.iter_mut().zip(own.joints.clone()) {
                 *command += joints[joint] - self.joints[joint];
             }
-            // A jump of the joints, at the start for instance, takes the passive joints along.
-            let jump = pose_residual(&self.forward.pose, &before);
-            if jump.linear().norm() > 0.01 * plan.length || jump.angular().norm() > 0.01 {
-                for passive in &own.passive {
-                    let x = self.forward.coordinates(index)[*passive];
-                    limb.bent[*passive] += x - limb.drawn[*passive];
-                    limb.drawn[*passive] = x;
-                }
-            }
-            if !(limb.factor_joints(own) && limb.factor_springs(own)) {
-                return self.give_up(plan, joints);
-            }
-            let tip = limb.actual.tip_pose().translation.vector;
-            if plan.is_serial {
-                self.tool = limb.actual.tip_pose() * own.platform_from_tip.inverse();
-                let shift = shift_matrix(&(self.tool.translation.vector - tip));
-                self.compliance = shift * limb.tip_compliance * shift.transpose();
-                continue;
-            }
-            if !limb.factor_held(own) {
-                return self.give_up(plan, joints);
-            }
-            let shift = shift_matrix(&(tip - self.tool.translation.vector));
-            for j in 0..6 {
-                let motion = shift.column(j).into_owned();
-                let (wrench, _) = limb.hold(own, &motion, &[0.0; MOST_PASSIVE]);
-                let mut column = stiffness.column_mut(j);
-                column += shift.transpose() * wrench;
+            if jumps {
+                limb.jump(own, self.forward.coordinates(index));
             }
         }
-        if !plan.is_serial {
-            let Some(inverse) = inverse_in_units(&stiffness, plan.length) else {
-                return self.give_up(plan, joints);
-            };
-            self.compliance = inverse;
-        }
+        self.tool = moved(&self.tool, &jump);
         self.joints.copy_from_slice(joints);
-        self.compliance.iter().all(|x| x.is_finite())
+        let found = self.factor(plan);
+        if !found {
+            self.unload(plan);
+        }
+        found
     }
 
-    /// Begins anew from the unloaded machine in the next cycle.
-    fn give_up(&mut self, plan: &MachinePlan, joints: &[f64]) -> bool {
-        self.joints.copy_from_slice(joints);
-        self.unload(plan);
-        false
+    /// Factors of all limbs and the compliance of the tool; false if something is singular.
+    fn factor(&mut self, plan: &MachinePlan) -> bool {
+        let mut stiffness = Matrix6::zeros();
+        for (limb, own) in self.limbs.iter_mut().zip(&plan.limbs) {
+            if !(limb.joints.factor(own) && limb.differentiate(own)) {
+                return false;
+            }
+            let tip = limb.tip();
+            if plan.is_serial {
+                self.tool = tip * own.platform_from_tip.inverse();
+                let arm = self.tool.translation.vector - tip.translation.vector;
+                let shift = shift_matrix(&arm);
+                self.compliance = shift * limb.tip_compliance * shift.transpose();
+                return self.compliance.iter().all(|x| x.is_finite());
+            }
+            if !limb.factor_held(own) {
+                return false;
+            }
+            let shift = shift_matrix(&(tip.translation.vector - self.tool.translation.vector));
+            for (j, mut column) in stiffness.column_iter_mut().enumerate() {
+                let motion = shift.column(j).into_owned();
+                column += shift.transpose() * limb.hold(own, &motion, &[0.0; MOST_PASSIVE]).0;
+            }
+        }
+        let inverse = inverse_in_units(&stiffness, plan.length);
+        self.compliance = inverse.unwrap_or_default();
+        inverse.is_some()
     }
 
     /// Puts the machine where it is unloaded.
     fn unload(&mut self, plan: &MachinePlan) {
-        self.target = self.forward.pose;
-        self.tool = self.forward.pose;
+        (self.target, self.tool) = (self.forward.pose, self.forward.pose);
         for (index, (limb, own)) in self.limbs.iter_mut().zip(&plan.limbs).enumerate() {
-            limb.drawn.copy_from_slice(self.forward.coordinates(index));
-            limb.commands
-                .copy_from_slice(&self.joints[own.joints.clone()]);
-            limb.unload(own);
+            let commands = &self.joints[own.joints.clone()];
+            limb.unload(self.forward.coordinates(index), commands);
         }
     }
 
@@ -160,7 +156,6 @@ impl MachineState {
         let mut change = 0.0_f64;
         for (limb, own) in self.limbs.iter_mut().zip(&plan.limbs) {
             change = change.max(limb.follow(own, &self.target));
-            limb.move_actual(own);
         }
         change = change.max(match plan.is_serial {
             true => self.serial(plan, wrench),
@@ -170,73 +165,55 @@ impl MachineState {
         change = change.max(size(&off.0, plan.length));
         // The tool is taken to go along with its target.
         self.target = moved(&self.target, &off);
-        if plan.directions[3] {
-            self.target.rotation.renormalize_fast();
-        }
         self.tool = moved(&self.tool, &off);
-        let sound = self
-            .limbs
-            .iter()
-            .zip(&plan.limbs)
-            .all(|(l, own)| l.is_sound(own));
+        let mut limbs = self.limbs.iter().zip(&plan.limbs);
+        let sound = limbs.all(|(limb, own)| limb.is_sound(own));
         (change.is_finite() && sound).then_some(change)
     }
 
     /// Load on the tool at its present pose, about its point: the given wrench, the platform's weight and its loads.
     fn load(&mut self, plan: &MachinePlan, wrench: &Wrench) -> Wrench {
         let arm = self.tool.rotation * plan.centre_of_mass;
-        let mut sum = *wrench + Wrench::new(plan.weight, arm.cross(&plan.weight));
+        let weight = Wrench::new(plan.weight, arm.cross(&plan.weight));
         self.poses[1] = self.tool;
         self.wrenches.clear();
         for load in &plan.loads {
             load.wrenches(&self.poses, &mut self.wrenches);
         }
-        for (platform, own) in &self.wrenches {
-            if *platform == plan.tool {
-                sum += *own;
-            }
-        }
-        sum
+        let own = self.wrenches.iter().filter(|(on, _)| *on == plan.tool);
+        own.fold(*wrench + weight, |sum, (_, own)| sum + *own)
     }
 
     fn serial(&mut self, plan: &MachinePlan, wrench: &Wrench) -> f64 {
         let own = &plan.limbs[0];
-        let tip = self.limbs[0].actual.tip_pose();
+        let tip = self.limbs[0].tip();
         self.tool = tip * own.platform_from_tip.inverse();
         let arm = tip.translation.vector - self.tool.translation.vector;
         let load = self.load(plan, wrench).shifted(&arm);
         let limb = &mut self.limbs[0];
         limb.wrench = load;
-        let moved_tip = Twist(limb.spring_step(own, &mut [0.0; MOST_PASSIVE]));
-        limb.take_step();
-        self.tool = moved(&self.tool, &moved_tip.shifted(&-arm));
-        size(&moved_tip.0, plan.length)
+        let (motion, _) = limb.spring_step(own);
+        limb.take_step(own, &Vector6::zeros(), &[0.0; MOST_PASSIVE]);
+        self.tool = moved(&self.tool, &Twist(motion).shifted(&-arm));
+        size(&motion, plan.length)
     }
 
     fn platform(&mut self, plan: &MachinePlan, wrench: &Wrench) -> f64 {
         let mut unbalanced = self.load(plan, wrench).0;
-        let tool = self.tool;
         for (limb, own) in self.limbs.iter_mut().zip(&plan.limbs) {
-            let (closure, shift, torques) = limb_residual(limb, own, &tool);
+            let (closure, shift, torques) = limb_residual(limb, own, &self.tool);
             let (change, _) = limb.hold(own, &closure, &torques);
             unbalanced -= shift.transpose() * (limb.wrench.0 + change);
         }
         let motion = self.compliance * unbalanced;
         let mut largest = size(&motion, plan.length);
         for (limb, own) in self.limbs.iter_mut().zip(&plan.limbs) {
-            // Evaluated once more instead of kept: a limb's residual costs less than a pass.
-            let (closure, shift, torques) = limb_residual(limb, own, &tool);
+            // Evaluated once more instead of kept: torques cost less than the pose, which stays.
+            let (closure, shift, torques) = limb_residual(limb, own, &self.tool);
             let (change, joints) = limb.hold(own, &(closure + shift * motion), &torques);
-            limb.bend_by(own, &change);
-            limb.wrench.0 += change;
-            for (k, passive) in own.passive.iter().enumerate() {
-                limb.bent[*passive] += joints[k];
-                largest = largest.max(joints[k].abs() * plan.length);
-            }
-            for x in &limb.step {
-                largest = largest.max(x.abs() * plan.length.min(1.0));
-            }
-            limb.take_step();
+            limb.take_step(own, &change, &joints);
+            let steps = joints.iter().chain(&limb.step).map(|x| x.abs());
+            largest = steps.fold(largest, |most, x| most.max(x * plan.length.min(1.0)));
         }
         self.tool = moved(&self.tool, &Twist(motion));
         largest
@@ -250,9 +227,8 @@ fn limb_residual(
     own: &LimbPlan,
     tool: &Pose,
 ) -> (Vector6<f64>, Matrix6<f64>, [f64; MOST_PASSIVE]) {
-    let tip = limb.actual.tip_pose();
-    let mut torques = [0.0; MOST_PASSIVE];
-    let gone = limb.spring_step(own, &mut torques);
+    let tip = limb.tip();
+    let (gone, torques) = limb.spring_step(own);
     let closure = pose_residual(&(tool * own.platform_from_tip), &tip).0 - gone;
     let shift = shift_matrix(&(tip.translation.vector - tool.translation.vector));
     (closure, shift, torques)
@@ -269,6 +245,6 @@ fn inverse_in_units(stiffness: &Matrix6<f64>, length: f64) -> Option<Matrix6<f64
     let unit = |k: usize| if k < 3 { 1.0 } else { length };
     let scaled = Matrix6::from_fn(|i, j| stiffness[(i, j)] / (unit(i) * unit(j)));
     let inverse = scaled.try_inverse()?;
-    let condition = inverse.norm() * scaled.norm();
-    (condition < 1e13).then(|| Matrix6::from_fn(|i, j| inverse[(i, j)] / (unit(i) * unit(j))))
+    let back = |i, j| inverse[(i, j)] / (unit(i) * unit(j));
+    (inverse.norm() * scaled.norm() < 1e13).then(|| Matrix6::from_fn(back))
 }

@@ -1,85 +1,61 @@
 //! Pose of the tool from commanded joints: nominal geometry, springs at home.
 //!
 //! A machine of one limb without passive joints has it in closed form. With loops, the platform and the passive joints follow by Newton's
-//! iteration from the cycle before: with `Q = I - J_q (J_q^T J_q)^-1 J_q^T` of each limb, the motions that its passive joints cannot make,
+//! iteration from the cycle before: with `Q` the motions of a limb's tip that its passive joints cannot make,
 //!
 //! ```text
 //! sum S^T Q S dP = - sum S^T Q r,     J_q dq = r + S dP in the sense of least squares
 //! ```
 
-use kinetostat::model::ChainEvaluation;
 use kinetostat::spatial::{Pose, Twist, moved, pose_residual, shift_matrix};
 use nalgebra::{Matrix6, Vector6};
 
-use crate::machine::limb::{LimbPlan, MOST_PASSIVE, scaled_column};
-use crate::machine::model::MachinePlan;
-use crate::small::{cholesky, solve_cholesky};
+use crate::machine::joints::Joints;
+use crate::machine::model::{LimbPlan, MachinePlan};
+use crate::small::Lu;
 
 /// Passes of one cycle.
 const PASSES: usize = 4;
-/// Change of the pose below which it is found, as a share of the natural length.
+/// Change below which the pose is found, as a share of the natural length.
 const PRECISION: f64 = 1e-13;
-
-/// One limb as the program has it.
-#[derive(Clone, Debug)]
-struct Drawn {
-    evaluation: ChainEvaluation,
-    coordinates: Vec<f64>,
-    /// Cholesky factor of `J_q^T J_q`.
-    normal: [f64; MOST_PASSIVE * MOST_PASSIVE],
-}
 
 /// The machine as the program has it.
 #[derive(Clone, Debug)]
 pub(crate) struct Forward {
-    limbs: Vec<Drawn>,
+    limbs: Vec<Joints>,
     pub pose: Pose,
 }
 
 impl Forward {
     pub(crate) fn new(plan: &MachinePlan) -> Self {
-        let limbs = plan.limbs.iter().map(|limb| Drawn {
-            evaluation: ChainEvaluation::new(&limb.nominal, &[]),
-            coordinates: limb.nominal.home_coordinates(),
-            normal: [0.0; MOST_PASSIVE * MOST_PASSIVE],
-        });
+        let limbs = plan.limbs.iter().map(|limb| Joints::new(limb, false));
         Self {
             limbs: limbs.collect(),
             pose: plan.home,
         }
     }
 
-    /// Passive joints of a limb.
+    /// Coordinates of a limb: its passive joints, springs at home.
     pub(crate) fn coordinates(&self, limb: usize) -> &[f64] {
         &self.limbs[limb].coordinates
     }
 
     /// Follows the joints; true if the pose is found.
     pub(crate) fn follow(&mut self, plan: &MachinePlan, joints: &[f64]) -> bool {
+        for (own, limb) in self.limbs.iter_mut().zip(&plan.limbs) {
+            own.commands.copy_from_slice(&joints[limb.joints.clone()]);
+        }
         if plan.is_serial {
-            let (limb, drawn) = (&plan.limbs[0], &mut self.limbs[0]);
-            drawn
-                .evaluation
-                .move_to(&limb.nominal, &limb.base, &drawn.coordinates, joints);
-            self.pose = drawn.evaluation.tip_pose() * limb.platform_from_tip.inverse();
+            let tip = self.limbs[0].tip(&plan.limbs[0]);
+            self.pose = tip * plan.limbs[0].platform_from_tip.inverse();
             return true;
         }
         for _ in 0..PASSES {
-            match self.pass(plan, joints) {
-                Some(moved) if moved < PRECISION * plan.length => return true,
+            match self.pass(plan) {
+                Some(change) if change < PRECISION * plan.length => return true,
                 Some(_) => {}
                 None => {
-                    // A state that leads nowhere is not kept.
-                    *self = Self {
-                        pose: plan.home,
-                        limbs: std::mem::take(&mut self.limbs),
-                    };
-                    for (drawn, limb) in self.limbs.iter_mut().zip(&plan.limbs) {
-                        for (x, own) in drawn.coordinates.iter_mut().zip(limb.nominal.coordinates())
-                        {
-                            *x = own.home;
-                        }
-                    }
+                    self.go_home(plan);
                     return false;
                 }
             }
@@ -87,114 +63,56 @@ impl Forward {
         false
     }
 
-    /// One pass; how far the platform moved and was off, m, or nothing where the loops are singular.
-    fn pass(&mut self, plan: &MachinePlan, joints: &[f64]) -> Option<f64> {
-        let length = plan.length;
-        let (mut matrix, mut right) = ([0.0; 36], Vector6::zeros());
-        for (drawn, limb) in self.limbs.iter_mut().zip(&plan.limbs) {
-            let (blocked, closure, shift) = drawn.blocked(limb, &self.pose, joints, length)?;
-            let by_platform = blocked * shift;
-            let own = shift.transpose() * by_platform;
-            for i in 0..6 {
-                for j in 0..6 {
-                    matrix[6 * i + j] += own[(i, j)];
-                }
+    /// A state that leads nowhere is not kept.
+    fn go_home(&mut self, plan: &MachinePlan) {
+        self.pose = plan.home;
+        for (own, limb) in self.limbs.iter_mut().zip(&plan.limbs) {
+            let home = limb.nominal.coordinates().iter();
+            for (x, home) in own.coordinates.iter_mut().zip(home) {
+                *x = home.home;
             }
-            right -= shift.transpose() * blocked * closure;
         }
-        if !cholesky(&mut matrix, 6) {
+    }
+
+    /// One pass; its largest change in m (rotations at the natural length), nothing where the loops are singular or the pose is far away.
+    fn pass(&mut self, plan: &MachinePlan) -> Option<f64> {
+        let (mut matrix, mut right) = (Matrix6::zeros(), Vector6::zeros());
+        for (own, limb) in self.limbs.iter_mut().zip(&plan.limbs) {
+            if !own.factor(limb) {
+                return None;
+            }
+            let mut blocked = Matrix6::identity();
+            for mut column in blocked.column_iter_mut() {
+                let motion = column.clone_owned();
+                column -= own.answer(&motion);
+            }
+            let (closure, shift) = closure(own, limb, &self.pose);
+            let held = shift.transpose() * blocked;
+            matrix += held * shift;
+            right -= held * closure;
+        }
+        let mut factor = Lu::<6>::new();
+        if !factor.factor(6, |i, j| matrix[(i, j)]) {
             return None;
         }
-        let mut motion: [f64; 6] = right.into();
-        solve_cholesky(&matrix, 6, &mut motion);
-        let mut most = 0.0_f64;
-        for (drawn, limb) in self.limbs.iter_mut().zip(&plan.limbs) {
-            most = most.max(drawn.go_along(limb, &self.pose, &Vector6::from(motion), length));
+        let motion = Vector6::from(factor.solve(&right.into()));
+        let mut change = motion.norm();
+        for (own, limb) in self.limbs.iter_mut().zip(&plan.limbs) {
+            let (closure, shift) = closure(own, limb, &self.pose);
+            change = change.max(own.answer(&(closure + shift * motion)).norm());
+            own.take_steps(limb);
         }
-        for (k, x) in motion.iter_mut().enumerate() {
-            most = most.max(x.abs());
-            *x /= if k < 3 { 1.0 } else { length };
-        }
-        self.pose = moved(&self.pose, &Twist(Vector6::from(motion)));
-        (most < 10.0 * length).then_some(most)
+        let turn = motion.fixed_rows::<3>(3) / plan.length;
+        let twist = Twist::new(motion.fixed_rows::<3>(0).into_owned(), turn);
+        self.pose = moved(&self.pose, &twist);
+        (change < 10.0 * plan.length).then_some(change)
     }
 }
 
-impl Drawn {
-    /// Motions that the passive joints cannot make, how far the tip is from the platform, and the motion of the tip by that of the
-    /// platform, all in units of length.
-    fn blocked(
-        &mut self,
-        limb: &LimbPlan,
-        pose: &Pose,
-        joints: &[f64],
-        length: f64,
-    ) -> Option<(Matrix6<f64>, Vector6<f64>, Matrix6<f64>)> {
-        let commands = &joints[limb.joints.clone()];
-        self.evaluation
-            .move_to(&limb.nominal, &limb.base, &self.coordinates, commands);
-        self.evaluation.differentiate();
-        let p = limb.passive.len();
-        let column =
-            |k: usize| Vector6::from(scaled_column(&self.evaluation, limb.passive[k], length));
-        for i in 0..p {
-            for j in 0..p {
-                self.normal[i * p + j] = column(i).dot(&column(j));
-            }
-        }
-        if p > 0 && !cholesky(&mut self.normal, p) {
-            return None;
-        }
-        let mut blocked = Matrix6::identity();
-        for row in 0..6 {
-            let mut share = [0.0; MOST_PASSIVE];
-            for k in 0..p {
-                share[k] = column(k)[row];
-            }
-            solve_cholesky(&self.normal, p, &mut share[..p]);
-            for k in 0..p {
-                let axis = column(k);
-                for i in 0..6 {
-                    blocked[(i, row)] -= axis[i] * share[k];
-                }
-            }
-        }
-        let (closure, shift) = self.closure(limb, pose, length);
-        Some((blocked, closure, shift))
-    }
-
-    fn closure(&self, limb: &LimbPlan, pose: &Pose, length: f64) -> (Vector6<f64>, Matrix6<f64>) {
-        let tip = pose * limb.platform_from_tip;
-        let mut closure = pose_residual(&tip, &self.evaluation.tip_pose()).0;
-        for k in 3..6 {
-            closure[k] *= length;
-        }
-        let arm = (tip.translation.vector - pose.translation.vector) / length;
-        (closure, shift_matrix(&arm))
-    }
-
-    /// Passive joints follow a motion of the platform; the largest step in units of length.
-    fn go_along(
-        &mut self,
-        limb: &LimbPlan,
-        pose: &Pose,
-        motion: &Vector6<f64>,
-        length: f64,
-    ) -> f64 {
-        let p = limb.passive.len();
-        let (closure, shift) = self.closure(limb, pose, length);
-        let wanted = closure + shift * motion;
-        let mut step = [0.0; MOST_PASSIVE];
-        for k in 0..p {
-            let axis = Vector6::from(scaled_column(&self.evaluation, limb.passive[k], length));
-            step[k] = axis.dot(&wanted);
-        }
-        solve_cholesky(&self.normal, p, &mut step[..p]);
-        let mut most = 0.0_f64;
-        for (x, passive) in step.iter().zip(&limb.passive) {
-            self.coordinates[*passive] += x;
-            most = most.max(x.abs() * length);
-        }
-        most
-    }
+/// How far the tip of a limb is from its place on the platform, and the motion of that place by the platform's, in units of length.
+fn closure(own: &mut Joints, limb: &LimbPlan, pose: &Pose) -> (Vector6<f64>, Matrix6<f64>) {
+    let place = pose * limb.platform_from_tip;
+    let off = limb.in_length(pose_residual(&place, &own.tip(limb)).0);
+    let arm = (place.translation.vector - pose.translation.vector) / limb.length;
+    (off, shift_matrix(&arm))
 }

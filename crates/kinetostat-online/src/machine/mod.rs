@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! model      what never changes of a machine
-//! limb       one limb: joints that follow a target, springs that follow a torque                     [R 7.13, 4.16]
+//! joints     joints of the nominal chain that follow a target
+//! limb       one limb under load: springs, passive joints, wrench                          [R 4.16]
 //! forward    pose of the tool from commanded joints, of machines with loops
 //! equilibrium  one pass: target, limbs, platform                                            [R 6.21-6.30, 7.7-7.13]
 //! supported  what a plan accepts
@@ -10,6 +11,7 @@
 
 pub(crate) mod equilibrium;
 pub(crate) mod forward;
+pub(crate) mod joints;
 pub(crate) mod limb;
 pub(crate) mod model;
 pub(crate) mod supported;

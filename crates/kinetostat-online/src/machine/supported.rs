@@ -1,11 +1,11 @@
 //! Machines that a plan accepts; all others are refused with the reason.
 
-use kinetostat::model::{LengthLaw, Load, PlatformLoad};
+use kinetostat::model::{LengthLaw, Load, PlatformLoad, Role};
 use kinetostat::{Directions, Mechanism};
 
 use crate::error::{Error, Result};
 use crate::input::MOST_JOINTS;
-use crate::machine::limb::MOST_PASSIVE;
+use crate::machine::model::MOST_PASSIVE;
 
 /// Refuses a mechanism that [`crate::step`] cannot evaluate without allocating or without a search.
 pub(crate) fn check(mechanism: &Mechanism) -> Result<()> {
@@ -31,10 +31,7 @@ pub(crate) fn check(mechanism: &Mechanism) -> Result<()> {
         if limb.from != 0 || limb.to != mechanism.tool() {
             return refuse(format!("limb '{name}' does not lead from base to tool"));
         }
-        let passive = limb
-            .actual
-            .indices_of(kinetostat::model::Role::Passive)
-            .len();
+        let passive = limb.actual.indices_of(Role::Passive).len();
         if mechanism.limbs().len() == 1 && passive > 0 {
             return refuse(format!(
                 "its only limb '{name}' has passive joints, which nothing holds"

@@ -2,4 +2,12 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 mod common;
+mod critical_gain;
+mod limits;
+mod loops;
+mod states;
 mod statics;
+
+/// Counts allocations in sections that may not have any.
+#[global_allocator]
+static ALLOCATOR: assert_no_alloc::AllocDisabler = assert_no_alloc::AllocDisabler;
