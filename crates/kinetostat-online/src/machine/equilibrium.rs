@@ -22,6 +22,9 @@ pub const MOST_PASSES: u32 = 8;
 const PRECISION: f64 = 1e-12;
 /// A motion of the program in one cycle above which passive joints are taken along, as a share of the natural length.
 const JUMP: f64 = 0.01;
+/// A correction above this share of the natural length, or a joint's above so many rad, leads nowhere: near a singular posture joints
+/// diverge, or settle on another branch.
+const FARTHEST: f64 = 0.25;
 
 /// State of a machine and its buffers.
 #[derive(Clone, Debug)]
@@ -153,22 +156,20 @@ impl MachineState {
 
     /// One pass; the largest change in m (rotations at the natural length), nothing where numbers go wild.
     fn pass(&mut self, plan: &MachinePlan, wrench: &Wrench) -> Option<f64> {
-        let mut change = 0.0_f64;
-        for (limb, own) in self.limbs.iter_mut().zip(&plan.limbs) {
-            change = change.max(limb.follow(own, &self.target));
-        }
-        change = change.max(match plan.is_serial {
+        let change = match plan.is_serial {
             true => self.serial(plan, wrench),
             false => self.platform(plan, wrench),
-        });
-        let (off, _) = plan.split(&pose_residual(&self.forward.pose, &self.tool));
-        change = change.max(size(&off.0, plan.length));
-        // The tool is taken to go along with its target.
-        self.target = moved(&self.target, &off);
-        self.tool = moved(&self.tool, &off);
+        };
+        let correction = pose_residual(&self.target, &self.forward.pose);
+        let near = size(&correction.0, plan.length) < FARTHEST * plan.length;
         let mut limbs = self.limbs.iter().zip(&plan.limbs);
-        let sound = limbs.all(|(limb, own)| limb.is_sound(own));
-        (change.is_finite() && sound).then_some(change)
+        let sound = limbs.all(|(limb, own)| {
+            let far =
+                |(x, joint): (&f64, &f64)| (x - joint).abs() > FARTHEST * plan.length.max(1.0);
+            let joints = &self.joints[own.joints.clone()];
+            limb.is_sound(own) && !limb.joints.commands.iter().zip(joints).any(far)
+        });
+        (change.is_finite() && near && sound).then_some(change)
     }
 
     /// Load on the tool at its present pose, about its point: the given wrench, the platform's weight and its loads.
@@ -184,8 +185,11 @@ impl MachineState {
         own.fold(*wrench + weight, |sum, (_, own)| sum + *own)
     }
 
+    /// A pass of one chain. The deflection is that of the actual chain from the nominal one at the same joints, so that joints which are still on
+    /// their way to the target, as near a singular posture, are not corrected twice.
     fn serial(&mut self, plan: &MachinePlan, wrench: &Wrench) -> f64 {
         let own = &plan.limbs[0];
+        self.limbs[0].move_actual(own);
         let tip = self.limbs[0].tip();
         self.tool = tip * own.platform_from_tip.inverse();
         let arm = tip.translation.vector - self.tool.translation.vector;
@@ -195,10 +199,19 @@ impl MachineState {
         let (motion, _) = limb.spring_step(own);
         limb.take_step(own, &Vector6::zeros(), &[0.0; MOST_PASSIVE]);
         self.tool = moved(&self.tool, &Twist(motion).shifted(&-arm));
-        size(&motion, plan.length)
+        let nominal = limb.joints.tip(own) * own.platform_from_tip.inverse();
+        let (deflection, _) = plan.split(&pose_residual(&self.tool, &nominal));
+        self.target = moved(&self.forward.pose, &-deflection);
+        let (off, _) = limb.joints.follow(own, &self.target);
+        off.max(size(&motion, plan.length))
     }
 
+    /// A pass of a machine with loops: the target is moved by what the tool is off, and the tool is taken to go along.
     fn platform(&mut self, plan: &MachinePlan, wrench: &Wrench) -> f64 {
+        let mut joints_off = 0.0_f64;
+        for (limb, own) in self.limbs.iter_mut().zip(&plan.limbs) {
+            joints_off = joints_off.max(limb.follow(own, &self.target));
+        }
         let mut unbalanced = self.load(plan, wrench).0;
         for (limb, own) in self.limbs.iter_mut().zip(&plan.limbs) {
             let (closure, shift, torques) = limb_residual(limb, own, &self.tool);
@@ -206,7 +219,7 @@ impl MachineState {
             unbalanced -= shift.transpose() * (limb.wrench.0 + change);
         }
         let motion = self.compliance * unbalanced;
-        let mut largest = size(&motion, plan.length);
+        let mut largest = joints_off.max(size(&motion, plan.length));
         for (limb, own) in self.limbs.iter_mut().zip(&plan.limbs) {
             // Evaluated once more instead of kept: torques cost less than the pose, which stays.
             let (closure, shift, torques) = limb_residual(limb, own, &self.tool);
@@ -216,7 +229,10 @@ impl MachineState {
             largest = steps.fold(largest, |most, x| most.max(x * plan.length.min(1.0)));
         }
         self.tool = moved(&self.tool, &Twist(motion));
-        largest
+        let (off, _) = plan.split(&pose_residual(&self.forward.pose, &self.tool));
+        self.target = moved(&self.target, &off);
+        self.tool = moved(&self.tool, &off);
+        largest.max(size(&off.0, plan.length))
     }
 }
 

@@ -80,7 +80,7 @@ impl LimbState {
         off
     }
 
-    fn move_actual(&mut self, plan: &LimbPlan) {
+    pub(crate) fn move_actual(&mut self, plan: &LimbPlan) {
         let commands = &self.joints.commands;
         self.actual
             .move_to(&plan.actual, &plan.base, &self.bent, commands);

@@ -1,8 +1,9 @@
 //! The steady correction is that of the off-line compensation: one path of the core, none of whose code the plan runs.
 
 use kinetostat::compensation::compensate_from;
+use kinetostat::linalg::SingularValues;
 use kinetostat::machine::LimbPosture;
-use kinetostat::model::unloaded_tip;
+use kinetostat::model::{Kinematics, unloaded_tip};
 use kinetostat::{Directions, Mechanism, Pose, Posture, PostureRequest};
 use kinetostat_online::{Input, Plan, Reason};
 use kinetostat_testing::Worst;
@@ -11,6 +12,8 @@ use crate::common::{Random, feed_forward, joints, next, preset, wide};
 
 /// Random states of each serial machine and set of directions; with both sets ten thousand.
 const STATES: usize = 5000;
+/// Smallest singular value of the joints' Jacobian, as a share of the natural length, below which a posture counts as nearly singular.
+const NEAR: f64 = 0.01;
 /// Presets of one limb.
 const SERIAL: [&str; 6] = [
     "heavy_6r",
@@ -67,6 +70,20 @@ fn posture(mechanism: &Mechanism, random: &mut Random) -> Option<Posture> {
         .ok()
 }
 
+/// Smallest singular value of the joints' Jacobian of an arm, rotations at the natural length and as a share of it.
+fn singular_value(posture: &Posture) -> f64 {
+    let mechanism = posture.mechanism();
+    let (limb, joints) = (&mechanism.limbs()[0], &posture.limbs()[0]);
+    let base = &mechanism.platforms()[0].home;
+    let at = Kinematics::new(&limb.nominal, base, &joints.coordinates, &joints.commands);
+    let columns = limb.nominal.coordinate_count()..;
+    let own = at.jacobian(limb.nominal.tip());
+    let mut own = own.columns_range(columns).into_owned();
+    let length = mechanism.natural_length();
+    own.rows_mut(0, 3).scale_mut(1.0 / length);
+    SingularValues::of(&own).least()
+}
+
 /// Largest difference of the position (m) and of the rotation (rad), and the largest number of passes.
 fn compare(
     mechanism: &Mechanism,
@@ -81,7 +98,7 @@ fn compare(
     let mut state = plan.start().unwrap();
     let mut random = Random(7);
     let mut input = Input::default();
-    let (mut worst, mut passes) = (Worst::new(), 0);
+    let (mut worst, mut passes, mut refused) = (Worst::new(), 0, 0);
     for index in 0..states {
         let Some(posture) = posture(mechanism, &mut random) else {
             continue;
@@ -104,6 +121,19 @@ fn compare(
             }
         }
         let output = next(&plan, &mut state, &mut input);
+        if output.finding != Reason::None {
+            // Near a singular posture the passes do not contract; a plan says so instead.
+            let said = matches!(output.finding, Reason::Singular | Reason::NotConverged);
+            let near = singular_value(&posture);
+            assert!(
+                said && near < NEAR,
+                "{} {:?}: {near}",
+                mechanism.name(),
+                output.finding
+            );
+            refused += 1;
+            continue;
+        }
         let place = || {
             format!(
                 "{} state {index}: {:?} {}",
@@ -117,6 +147,11 @@ fn compare(
         worst.add_at(off.angular().norm(), place);
         worst.add_at((output.left_over - exact.left_over).linear().norm(), place);
     }
+    assert!(
+        refused * 200 <= states,
+        "{}: {refused} of {states} refused",
+        mechanism.name()
+    );
     (worst, passes)
 }
 
@@ -125,7 +160,7 @@ fn holds(names: &[&str], states: usize, force: f64) {
         let mechanism = preset(name);
         for directions in [Directions::POSITION, Directions::ALL] {
             let (worst, passes) = compare(&mechanism, directions, states, force);
-            assert!(worst.samples() > 2 * states, "{name}: too few states");
+            assert!(worst.samples() > 29 * states / 10, "{name}: too few states");
             assert!(passes <= 8);
             assert!(worst.holds(1e-9), "{worst:?}");
         }
