@@ -154,6 +154,16 @@ impl Kinematics {
         self.coordinates + self.commands + if self.base_moves { 6 } else { 0 }
     }
 
+    /// Number of elementary motions.
+    pub(crate) fn motion_count(&self) -> usize {
+        self.screws.len()
+    }
+
+    /// Number of nodes.
+    pub(crate) fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
     /// Pose of a node, base from node.
     #[must_use]
     pub fn node_pose(&self, node: usize) -> Pose {
@@ -301,6 +311,36 @@ impl Kinematics {
                         hessian[(row, column)] += row_ratio * column_ratio * value;
                     }
                 }
+            }
+        }
+    }
+
+    /// Torques of dead wrenches as in [`Self::load_terms`], without derivatives and without allocating: one entry of
+    /// `acting` (force, moment about the outer base's origin) for each motion and one more.
+    pub(crate) fn torques_into(
+        &self,
+        wrenches: &[(usize, Wrench)],
+        acting: &mut [(Vector3<f64>, Vector3<f64>)],
+        torque: &mut [f64],
+    ) {
+        acting.fill((Vector3::zeros(), Vector3::zeros()));
+        for (node, wrench) in wrenches {
+            let f = wrench.force();
+            let outer = &mut acting[self.before[*node]];
+            outer.0 += f;
+            outer.1 += self.nodes[*node].1.cross(&f) + wrench.moment();
+        }
+        torque.fill(0.0);
+        let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
+        for (i, screw) in self.screws.iter().enumerate().rev() {
+            force += acting[i + 1].0;
+            moment += acting[i + 1].1;
+            let value = match screw.kind {
+                MotionKind::Prismatic => screw.axis.dot(&force),
+                MotionKind::Revolute => screw.axis.dot(&(moment - screw.point.cross(&force))),
+            };
+            for (row, ratio) in screw.drives() {
+                torque[row] += ratio * value;
             }
         }
     }

@@ -100,6 +100,34 @@ impl SpringBlock {
         response.energy
     }
 
+    /// Adds this block's energy gradient to `torque` (all coordinates of the chain) without a tangent and without allocating:
+    /// `values` are the coordinates, `posture` those of the commanded, unloaded posture.
+    pub fn add_torque(&self, values: &[f64], posture: &[f64], torque: &mut [f64]) {
+        match &self.law {
+            SpringLaw::Linear(matrix) => {
+                self.add_constant(matrix, values, 1.0, torque, &mut |_, _, _| {});
+            }
+            SpringLaw::Parallelogram(law) => {
+                let matrix = law.matrix(posture[law.inclination]);
+                self.add_constant(&matrix, values, 1.0, torque, &mut |_, _, _| {});
+            }
+            other => if_single!(
+                other,
+                law => torque[self.first] += law.torque(values[self.first] - self.rest[0]),
+                else if_curved!(
+                    other,
+                    law => {
+                        let at: [f64; 6] = std::array::from_fn(|i| values[self.first + i] - self.rest[i]);
+                        for (i, own) in law.torque_at(&at).0.into_iter().enumerate() {
+                            torque[self.first + i] += own;
+                        }
+                    },
+                    else ()
+                )
+            ),
+        }
+    }
+
     /// Corrects `to`, which is `from` plus a step of an iteration, to second order: a law that is
     /// linear in other coordinates than these takes the step in its own.
     pub(crate) fn follow(&self, from: &[f64], preload: f64, to: &mut [f64]) {
