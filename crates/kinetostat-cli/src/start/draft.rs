@@ -11,7 +11,7 @@ use crate::start::answers::Answers;
 use crate::start::reading::{Cut, Engaged, Stated, word_of};
 
 /// File of the job.
-pub(crate) const JOB: &str = "job.toml";
+pub(super) const JOB: &str = "job.toml";
 
 /// File of the cell, where the program is written in the language of a robot.
 const CELL: &str = "cell.toml";

@@ -8,7 +8,6 @@ use crate::check::job::as_far_as_known;
 use crate::files::outputs::{Existing, Outputs};
 use crate::start::answers::Answers;
 use crate::start::draft;
-pub(crate) use crate::start::draft::JOB;
 use crate::start::question::{Question, choices};
 use crate::start::reading::wrong;
 use crate::ui::failure::{Answer, Failing};
@@ -34,7 +33,14 @@ impl Interview {
             folder: folder.to_owned(),
             ..Answers::default()
         };
-        claimed(&answers, existing)?;
+        claimed(&answers, existing).map_err(|failure| {
+            let job = folder.join(draft::JOB);
+            ErrorCode::Output.failure(format!(
+                "{}. To see the job that is there: kinetostat view {}",
+                failure.plain,
+                job.display()
+            ))
+        })?;
         Ok(Self {
             answers,
             before: Vec::new(),

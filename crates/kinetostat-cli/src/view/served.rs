@@ -12,7 +12,7 @@ use crate::compensate::{self, arguments::CompensateArgs};
 use crate::files::outputs::Existing;
 use crate::shown::answer::{Nothing, OpenRequest};
 use crate::shown::session::{Session, answered};
-use crate::start::interview::{Interview, JOB};
+use crate::start::interview::Interview;
 use crate::ui::failure::{Answer, Code, Failing};
 use crate::ui::given::Given;
 use crate::view::openapi::openapi;
@@ -77,12 +77,7 @@ impl Served {
 
     /// No machine yet: the page asks for one, and for its program.
     pub(super) fn asking() -> Answer<Self> {
-        let interview = Interview::new(Path::new(""), Existing::Refuse).map_err(|failure| {
-            ErrorCode::Output.failure(format!(
-                "{}. To see the job that is here: kinetostat view {JOB}",
-                failure.plain
-            ))
-        })?;
+        let interview = Interview::new(Path::new(""), Existing::Refuse)?;
         Ok(Self {
             interview: Mutex::new(Some(interview)),
             ..Self::default()
