@@ -63,6 +63,8 @@ def compensate(
     report: _Path | None = None,
     pdf: _Path | None = None,
     language: Literal["en", "fr", "de"] | None = None,
+    part_number: str | float | None = None,
+    revision: str | float | None = None,
     points: _Path | None = None,
     vtk: _Path | None = None,
     all_points: bool = False,
@@ -212,10 +214,13 @@ def compensate(
     report : path
         The report, one HTML file
     pdf : path
-        The report without pictures as PDF, to be signed and filed
+        The report as PDF, to be signed and filed
     language : Literal["en", "fr", "de"]
-        Language of the reports [default: en]. In French and German the HTML report is the paper,
-        with two pictures
+        Language of the reports [default: en]. In French and German the HTML report is the paper
+    part_number : str | float
+        Number of the part, for the reports and the result
+    revision : str | float
+        Revision of the part
     points : path
         Points of the path as a table: CSV, of long programs the worst of every stretch; Parquet
         with every point where the name ends in .parquet
@@ -339,6 +344,8 @@ def compensate(
         ("--report", report),
         ("--pdf", pdf),
         ("--language", language),
+        ("--part-number", part_number),
+        ("--revision", revision),
         ("--points", points),
         ("--vtk", vtk),
         ("--all-points", all_points),

@@ -74,7 +74,7 @@ def identify(
     report : path
         The report with pictures, as one HTML file
     pdf : path
-        The report without pictures, as PDF
+        The report as PDF
     csv : path
         All points as a table (CSV)
     plot : path

@@ -57,6 +57,8 @@ def verify(
     limit: str | float | Sequence[str | float] | None = None,
     pdf: _Path | None = None,
     language: Literal["en", "fr", "de"] | None = None,
+    part_number: str | float | None = None,
+    revision: str | float | None = None,
     points: _Path | None = None,
     vtk: _Path | None = None,
     all_points: bool = False,
@@ -179,10 +181,13 @@ def verify(
         shortest_tool_mm, longest_tool_mm, nearest_base_mm, below_base_mm, speed_mm_per_s, zone_mm.
         A program that leaves a limit is refused
     pdf : path
-        The report without pictures as PDF, to be signed and filed
+        The report as PDF, to be signed and filed
     language : Literal["en", "fr", "de"]
-        Language of the reports [default: en]. In French and German the HTML report is the paper,
-        with two pictures
+        Language of the reports [default: en]. In French and German the HTML report is the paper
+    part_number : str | float
+        Number of the part, for the reports and the result
+    revision : str | float
+        Revision of the part
     points : path
         Points of the path as a table: CSV, of long programs the worst of every stretch; Parquet
         with every point where the name ends in .parquet
@@ -268,6 +273,8 @@ def verify(
         ("--limit", limit),
         ("--pdf", pdf),
         ("--language", language),
+        ("--part-number", part_number),
+        ("--revision", revision),
         ("--points", points),
         ("--vtk", vtk),
         ("--all-points", all_points),

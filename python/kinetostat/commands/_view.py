@@ -13,7 +13,7 @@ _Progress = Callable[[int, int, str], object]
 
 
 def view(
-    subject: str | float,
+    subject: str | float | None = None,
     *,
     at: Sequence[float] | None = None,
     joints: str | float | Sequence[str | float] | None = None,
@@ -30,12 +30,15 @@ def view(
     The page shows the machine with its limbs, joints and platforms, as it is commanded and, larger than
     it is, as it bends under a load; joints, tool and force are moved by hand, and every figure is
     computed anew. With a job, the path of its program is coloured by the error of the tool, before and
-    after compensation. The page comes from this program and goes to this computer only; Ctrl-C ends it.
+    after compensation. Without anything it asks the questions of `kinetostat start` first, and files
+    that are dropped onto it are shown. The page comes from this program and goes to this computer only;
+    Ctrl-C ends it.
 
     Parameters
     ----------
     subject : str | float
-        Preset, model file, or job file
+        Preset, model file, or job file; without one the page asks the questions of `kinetostat
+        start`
     at : Sequence[float]
         Start with the tool's tip here, mm, base axes
     joints : str | float | Sequence[str | float]

@@ -11,21 +11,6 @@ use crate::lobes::answer::{Best, Point};
 #[serde(deny_unknown_fields)]
 pub(crate) struct Nothing {}
 
-/// Files that were dropped onto the page.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct OpenRequest {
-    pub(crate) files: Vec<DroppedFile>,
-}
-
-/// A file of text.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct DroppedFile {
-    pub(crate) name: String,
-    pub(crate) text: String,
-}
-
 /// The machine of a session.
 #[derive(Serialize, JsonSchema)]
 pub(crate) struct MachineAnswer {

@@ -2,18 +2,11 @@
 
 use std::path::Path;
 
-use kinetostat_diagnostic::ErrorCode;
-
 use crate::files::file_kind::FileKind;
 use crate::files::input_files::InputFiles;
-use crate::shown::answer::DroppedFile;
 use crate::shown::path;
 use crate::shown::session::Session;
-use crate::ui::failure::{Answer, Failing};
-
-/// Files that are opened together, and letters of their names.
-const MOST_FILES: usize = 200;
-const MOST_LETTERS: usize = 200;
+use crate::ui::failure::Answer;
 
 impl Session {
     /// A preset, or what a file says that it is.
@@ -44,45 +37,5 @@ impl Session {
             model,
             program: Some(program),
         })
-    }
-
-    /// Of files that came together without a folder, the job, or else the model. They are laid into a folder for as long as they are
-    /// read, since a job and a program look for others beside themselves.
-    pub(crate) fn of_dropped(files: &[DroppedFile]) -> Answer<Self> {
-        let folder = tempfile::tempdir().map_err(|error| ErrorCode::Output.failure(error))?;
-        if files.len() > MOST_FILES {
-            return Err(ErrorCode::Value.failure(format!("at most {MOST_FILES} files at once")));
-        }
-        let mut subjects = [None, None];
-        for file in files {
-            let path = Path::new(&file.name);
-            let is_plain = path.file_name().is_some_and(|own| own == path.as_os_str());
-            if !is_plain || file.name.len() > MOST_LETTERS {
-                return Err(
-                    ErrorCode::Value.failure(format!("'{}' is no name of a file alone", file.name))
-                );
-            }
-            std::fs::write(folder.path().join(path), &file.text)
-                .map_err(|error| ErrorCode::Output.failure(error))?;
-            match FileKind::of(path, file.text.as_bytes()) {
-                Some(FileKind::Job) => subjects[0] = Some(&file.name),
-                Some(FileKind::Model) => subjects[1] = Some(&file.name),
-                _ => (),
-            }
-        }
-        let Some(name) = subjects.into_iter().flatten().next() else {
-            return Err(ErrorCode::Missing.failure(
-                "none of these files is a job or a model: a program alone says neither machine nor place; drop its job file, its model and the program together, or begin with `kinetostat start`",
-            ));
-        };
-        // Messages name the files as they are called where they come from.
-        let at = format!("{}/", folder.path().display());
-        let mut session = Self::open(&format!("{at}{name}")).map_err(|mut failure| {
-            failure.plain = failure.plain.replace(&at, "");
-            failure
-        })?;
-        session.named.clone_from(name);
-        session.path = None;
-        Ok(session)
     }
 }

@@ -8,21 +8,25 @@ use crate::check::job::as_far_as_known;
 use crate::files::outputs::{Existing, Outputs};
 use crate::start::answers::Answers;
 use crate::start::draft;
-use crate::start::question::{Question, choices};
+use crate::start::question::Question;
 use crate::start::reading::wrong;
 use crate::ui::failure::{Answer, Failing};
 
 /// What was asked and answered so far. An answer that cannot be taken leaves everything as it is.
 pub(crate) struct Interview {
-    answers: Answers,
-    before: Vec<Given>,
+    pub(super) answers: Answers,
+    pub(super) before: Vec<Given>,
     existing: Existing,
 }
 
 /// An answer that was taken, and all answers before it.
-struct Given {
-    words: String,
-    text: String,
+#[cfg_attr(
+    not(feature = "view"),
+    expect(dead_code, reason = "the page shows what was answered")
+)]
+pub(super) struct Given {
+    pub(super) words: String,
+    pub(super) text: String,
     before: Answers,
 }
 
@@ -52,17 +56,6 @@ impl Interview {
     pub(crate) fn question(&self) -> Option<Question> {
         let ask = self.answers.next()?;
         Some(Question::of(ask, &self.answers))
-    }
-
-    /// Answers of the next question to choose from, where there are some.
-    pub(crate) fn choices(&self) -> Vec<String> {
-        self.answers.next().map(choices).unwrap_or_default()
-    }
-
-    /// The questions that were answered, with the answers.
-    pub(crate) fn given(&self) -> impl Iterator<Item = (&str, &str)> {
-        let all = self.before.iter();
-        all.map(|given| (given.words.as_str(), given.text.as_str()))
     }
 
     /// Takes an answer to the next question, empty for what is usual; what was understood, line by line.

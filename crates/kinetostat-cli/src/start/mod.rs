@@ -10,6 +10,8 @@ pub(crate) mod interview;
 pub(crate) mod question;
 mod reading;
 mod robot;
+#[cfg(feature = "view")]
+mod shown;
 
 use std::io::{BufRead, IsTerminal};
 use std::path::{Path, PathBuf};

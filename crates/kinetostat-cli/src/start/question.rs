@@ -1,16 +1,11 @@
 //! The questions in words: what is asked, what an answer looks like, and what is taken for an empty one.
 
-use std::path::PathBuf;
-
 use kinetostat_cutting::Materials;
 use kinetostat_model::preset_names;
 
-use crate::files::file_kind::FileKind;
-use crate::job::format::WeightWord;
-use crate::job::target_word::RobotWord;
 use crate::start::answers::Answers;
 use crate::start::ask::Ask;
-use crate::start::reading::{NONE, words_of};
+use crate::start::reading::NONE;
 
 /// A question.
 pub(crate) struct Question {
@@ -140,46 +135,4 @@ impl Question {
         };
         Self { words, help, usual }
     }
-}
-
-/// Files of the folder that are looked at for a choice.
-const MOST_FILES: usize = 500;
-
-/// Answers to choose from, where there are some: words that are taken, or files of this folder.
-pub(super) fn choices(ask: Ask) -> Vec<String> {
-    let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
-    match ask {
-        Ask::Robot => {
-            let mut all = files_here(&[FileKind::Model, FileKind::Urdf]);
-            all.extend(preset_names().iter().map(|preset| preset.name.to_owned()));
-            all
-        }
-        Ask::Program => files_here(&[FileKind::Program]),
-        Ask::FlangeAxis => words(&["x", "y", "z"]),
-        Ask::To => {
-            let made = words_of::<RobotWord>().into_iter().map(|(word, _)| word);
-            std::iter::once("g-code".to_owned()).chain(made).collect()
-        }
-        Ask::ToolAxis => words(&["x", "-x", "y", "-y", "z", "-z"]),
-        Ask::Weight => words_of::<WeightWord>()
-            .into_iter()
-            .map(|(word, _)| word)
-            .collect(),
-        _ => Vec::new(),
-    }
-}
-
-/// Names of the files of this folder that are of some kinds, in order.
-fn files_here(kinds: &[FileKind]) -> Vec<String> {
-    let entries = std::fs::read_dir(".").into_iter().flatten().flatten();
-    let paths = entries.map(|entry| PathBuf::from(entry.file_name()));
-    let is_asked =
-        |path: &PathBuf| FileKind::of_file(path).is_some_and(|kind| kinds.contains(&kind));
-    let mut names: Vec<String> = paths
-        .take(MOST_FILES)
-        .filter(is_asked)
-        .map(|path| path.display().to_string())
-        .collect();
-    names.sort();
-    names
 }

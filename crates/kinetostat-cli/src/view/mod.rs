@@ -4,6 +4,8 @@
 //! its results as one file.
 
 #[cfg(feature = "view")]
+mod dropped;
+#[cfg(feature = "view")]
 mod openapi;
 #[cfg(feature = "view")]
 mod serve;

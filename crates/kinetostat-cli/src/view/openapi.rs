@@ -6,9 +6,10 @@ use serde_json::{Map, Value, json};
 
 use crate::shown::answer::{
     CurveOfState, CurveRequest, LobesOfState, LobesRequest, MachineAnswer, MapOfState, MapRequest,
-    ModesOfState, Nothing, OpenRequest, PathAnswer, ResponseOfState, ResponseRequest, StateAnswer,
-    StateRequest, StockAtPlace, StockRequest,
+    ModesOfState, Nothing, PathAnswer, ResponseOfState, ResponseRequest, StateAnswer, StateRequest,
+    StockAtPlace, StockRequest,
 };
+use crate::view::dropped::OpenRequest;
 use crate::view::served::{StartAnswer, StartRequest};
 
 /// Schema of a request or an answer.
@@ -41,7 +42,7 @@ fn all() -> Vec<Described> {
         ),
         asked::<LobesRequest, LobesOfState>("lobes", "Speeds and depths at which a cut chatters"),
         asked::<StartRequest, StartAnswer>("start", "The questions of `kinetostat start`"),
-        asked::<OpenRequest, ()>("open", "Shows the job, or the model, of some files"),
+        asked::<()>("open", "Shows the job, or the model, of some files"),
     ]
 }
 

@@ -10,11 +10,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::compensate::{self, arguments::CompensateArgs};
 use crate::files::outputs::Existing;
-use crate::shown::answer::{Nothing, OpenRequest};
+use crate::shown::answer::Nothing;
 use crate::shown::session::{Session, answered};
 use crate::start::interview::Interview;
 use crate::ui::failure::{Answer, Code, Failing};
 use crate::ui::given::Given;
+use crate::view::dropped::{OpenRequest, session_of};
 use crate::view::openapi::openapi;
 
 /// The machine that is shown, and the questions before.
@@ -167,7 +168,7 @@ impl Answers for Served {
             ("openapi", _) => Some(answered(request, |Nothing {}| Ok(openapi()))),
             ("start", _) => Some(answered(request, |request| Ok(self.start(&request)))),
             (OPEN, _) => Some(answered(request, |open: OpenRequest| {
-                self.show(Session::of_dropped(&open.files)?);
+                self.show(session_of(&open.files)?);
                 Ok(())
             })),
             (_, Some(session)) => session.answer(question, request),
