@@ -42,7 +42,7 @@ fn all() -> Vec<Described> {
         ),
         asked::<LobesRequest, LobesOfState>("lobes", "Speeds and depths at which a cut chatters"),
         asked::<StartRequest, StartAnswer>("start", "The questions of `kinetostat start`"),
-        asked::<()>("open", "Shows the job, or the model, of some files"),
+        asked::<OpenRequest, ()>("open", "Shows the job, or the model, of some files"),
     ]
 }
 
