@@ -9,6 +9,7 @@ pub const MOST_JOINTS: usize = 16;
 
 /// Command of the operator. A command counts in the cycle in which it appears; a level that stays is one command.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u8)]
 pub enum Command {
     /// Nothing new.
     #[default]

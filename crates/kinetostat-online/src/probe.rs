@@ -30,6 +30,7 @@ impl Default for ProbeSettings {
 
 /// Finding of a probe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
 pub enum Verdict {
     /// Still probing.
     Running,

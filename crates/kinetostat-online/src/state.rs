@@ -7,7 +7,6 @@ use crate::input::{Command, MOST_JOINTS};
 use crate::limiter::Follower;
 use crate::low_pass::LowPassState;
 use crate::machine::equilibrium::MachineState;
-use crate::machine::forward::Forward;
 use crate::machine::joints::Joints;
 use crate::plan::Plan;
 use crate::probe::Probe;
@@ -113,15 +112,10 @@ impl JointCorrection {
         self.at == [0.0; MOST_JOINTS]
     }
 
-    /// Follows a pose near that of the program. True if a joint was held back by its speed, or the posture is singular and
-    /// they stay.
-    pub(crate) fn follow(
-        &mut self,
-        plan: &Plan,
-        forward: &Forward,
-        joints: &[f64],
-        sent: &Twist,
-    ) -> bool {
+    /// Follows the pose that is sent, at the joints that the machine was evaluated at last. True if a joint was held back by
+    /// its speed, or the posture is singular and they stay.
+    pub(crate) fn follow(&mut self, plan: &Plan, machine: &MachineState, sent: &Twist) -> bool {
+        let (forward, joints) = (&machine.forward, &machine.joints);
         let pose = moved(&forward.pose, sent);
         let most = plan.settings.limits.joint_speed * plan.settings.period;
         let is_zero = *sent == Twist::zero();
@@ -136,7 +130,7 @@ impl JointCorrection {
                 for _ in 0..STEPS {
                     limb.follow(own, &pose);
                 }
-                found = limb.is_finite();
+                found = limb.is_near(own, &joints[own.joints.clone()]);
             }
             held |= !found;
             for (command, joint) in limb.commands.iter().zip(own.joints.clone()) {

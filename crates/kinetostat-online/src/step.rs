@@ -22,25 +22,15 @@ pub fn step(plan: &Plan, state: &mut State, input: &Input) -> Output {
         cycle.finding = Reason::OtherPlan;
         return cycle.output(state);
     }
-    let joints = &input.joints[..plan.joints()];
     cycle.finding = check(plan, state, input);
     if cycle.finding == Reason::None {
-        cycle.finding = cycle
-            .model(plan, state, input)
-            .err()
-            .unwrap_or(Reason::None);
+        let outcome = cycle.model(plan, state, input);
+        cycle.finding = outcome.err().unwrap_or_default();
     }
     supervise(plan, state, input, cycle.finding);
     cycle.send(plan, state);
     let sent = state.correction();
-    if input.joints.iter().all(|x| x.is_finite()) {
-        let State {
-            joints: own,
-            machine,
-            ..
-        } = state;
-        cycle.clamped.joints = own.follow(plan, &machine.forward, joints, &sent);
-    }
+    cycle.clamped.joints = state.joints.follow(plan, &state.machine, &sent);
     cycle.output(state)
 }
 

@@ -13,26 +13,24 @@ use kinetostat::spatial::{Pose, Twist, Wrench, moved, pose_residual, shift_matri
 use nalgebra::{Matrix6, Vector6};
 
 use crate::machine::forward::Forward;
+use crate::machine::joints::FARTHEST;
 use crate::machine::limb::LimbState;
 use crate::machine::model::{LimbPlan, MOST_PASSIVE, MachinePlan};
 
 /// Passes of one cycle at most.
 pub const MOST_PASSES: u32 = 8;
 /// Change of a pass below which the state is the equilibrium, as a share of the natural length.
-const PRECISION: f64 = 1e-12;
+const PRECISION: f64 = 1e-11;
 /// A motion of the program in one cycle above which passive joints are taken along, as a share of the natural length.
 const JUMP: f64 = 0.01;
-/// A correction above this share of the natural length, or a joint's above so many rad, leads nowhere: near a singular posture joints
-/// diverge, or settle on another branch.
-const FARTHEST: f64 = 0.25;
 
 /// State of a machine and its buffers.
 #[derive(Clone, Debug)]
 pub(crate) struct MachineState {
     pub forward: Forward,
     limbs: Vec<LimbState>,
-    /// Joints of the cycle before.
-    joints: Vec<f64>,
+    /// Joints of the program in the last cycle whose loops closed.
+    pub joints: Vec<f64>,
     /// Pose to command so that the tool is where the program has it.
     pub target: Pose,
     /// Pose of the tool in equilibrium.
@@ -163,12 +161,7 @@ impl MachineState {
         let correction = pose_residual(&self.target, &self.forward.pose);
         let near = size(&correction.0, plan.length) < FARTHEST * plan.length;
         let mut limbs = self.limbs.iter().zip(&plan.limbs);
-        let sound = limbs.all(|(limb, own)| {
-            let far =
-                |(x, joint): (&f64, &f64)| (x - joint).abs() > FARTHEST * plan.length.max(1.0);
-            let joints = &self.joints[own.joints.clone()];
-            limb.is_sound(own) && !limb.joints.commands.iter().zip(joints).any(far)
-        });
+        let sound = limbs.all(|(limb, own)| limb.is_sound(own, &self.joints[own.joints.clone()]));
         (change.is_finite() && near && sound).then_some(change)
     }
 

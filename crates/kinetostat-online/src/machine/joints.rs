@@ -14,6 +14,9 @@ use crate::small::Lu;
 /// Longest step of a joint in one pass, rad, or share of the natural length.
 const LONGEST_STEP: f64 = 0.3;
 
+/// Joints beyond this, rad or share of the natural length, from those of the program are no correction.
+pub(crate) const FARTHEST: f64 = 0.25;
+
 /// Nominal chain of a limb with springs at home; unknown are its passive joints, or these and its commands.
 #[derive(Clone, Debug)]
 pub(crate) struct Joints {
@@ -113,8 +116,11 @@ impl Joints {
         (off.norm(), self.take_steps(plan))
     }
 
-    pub(crate) fn is_finite(&self) -> bool {
-        let mut all = self.coordinates.iter().chain(&self.commands);
-        all.all(|x| x.is_finite())
+    /// True if all numbers are finite and the commands lie beside the joints of the program: near a singular posture they diverge, or
+    /// settle on another branch.
+    pub(crate) fn is_near(&self, plan: &LimbPlan, joints: &[f64]) -> bool {
+        let beside = |(x, joint): (&f64, &f64)| (x - joint).abs() < FARTHEST * plan.length.max(1.0);
+        self.coordinates.iter().all(|x| x.is_finite())
+            && self.commands.iter().zip(joints).all(beside)
     }
 }

@@ -106,19 +106,35 @@ impl LimbState {
         }
     }
 
+    /// Compliance of the laws for which that at rest is not good enough: the matrix of a parallelogram depends on the posture, and a gear
+    /// that stiffens at its knee would throw the iteration back and forth. False if one is singular.
+    fn update_compliance(&mut self, plan: &LimbPlan) -> bool {
+        for (block, compliance) in plan.actual.springs().iter().zip(&mut self.compliance) {
+            match &block.law {
+                SpringLaw::Parallelogram(law) => {
+                    let inclination = self.joints.coordinates[law.inclination];
+                    let Some(inverse) = law.matrix(inclination).try_inverse() else {
+                        return false;
+                    };
+                    compliance.copy_from_slice(inverse.as_slice());
+                }
+                SpringLaw::Bilinear(law) => {
+                    let deflection = self.bent[block.first] - block.rest[0];
+                    let is_beyond = deflection.abs() > law.knee;
+                    compliance[0] = if is_beyond { law.beyond } else { law.stiffness }.recip();
+                }
+                _ => {}
+            }
+        }
+        true
+    }
+
     /// Jacobian, and compliance of the tip, at the present state; false where they are not finite.
     pub(crate) fn differentiate(&mut self, plan: &LimbPlan) -> bool {
         self.move_actual(plan);
         self.actual.differentiate();
-        for (block, compliance) in plan.actual.springs().iter().zip(&mut self.compliance) {
-            // The one law whose matrix depends on the posture.
-            if let SpringLaw::Parallelogram(law) = &block.law {
-                let inclination = self.joints.coordinates[law.inclination];
-                let Some(inverse) = law.matrix(inclination).try_inverse() else {
-                    return false;
-                };
-                compliance.copy_from_slice(inverse.as_slice());
-            }
+        if !self.update_compliance(plan) {
+            return false;
         }
         let (jacobian, compliance) = (self.actual.jacobian(), &self.compliance);
         let mut sum = Matrix6::zeros();
@@ -167,6 +183,7 @@ impl LimbState {
     /// of the tip by that step, and the torques of passive joints.
     pub(crate) fn spring_step(&mut self, plan: &LimbPlan) -> (Vector6<f64>, [f64; MOST_PASSIVE]) {
         self.actual.load(&plan.actual, &plan.loads, &self.wrench);
+        self.update_compliance(plan);
         self.spring_torque.fill(0.0);
         for block in plan.actual.springs() {
             block.add_torque(
@@ -207,9 +224,9 @@ impl LimbState {
     }
 
     /// True if all numbers are finite and nothing has gone far beyond anything physical.
-    pub(crate) fn is_sound(&self, plan: &LimbPlan) -> bool {
+    pub(crate) fn is_sound(&self, plan: &LimbPlan, joints: &[f64]) -> bool {
         let far = 1e3 * plan.length.max(1.0);
-        self.joints.is_finite()
+        self.joints.is_near(plan, joints)
             && self.bent.iter().all(|x| x.abs() < far)
             && self.wrench.0.iter().all(|x| x.is_finite())
     }

@@ -3,9 +3,13 @@
 use kinetostat::compensation::compensate_from;
 use kinetostat::linalg::SingularValues;
 use kinetostat::machine::LimbPosture;
-use kinetostat::model::{Kinematics, unloaded_tip};
-use kinetostat::{Directions, Mechanism, Pose, Posture, PostureRequest};
-use kinetostat_online::{Input, Plan, Reason};
+use kinetostat::model::{
+    BilinearLaw, Kinematics, LinkConvention, LinkMass, SpringLaw, unloaded_tip,
+};
+use kinetostat::nalgebra::{Vector3, vector};
+use kinetostat::spatial::moved;
+use kinetostat::*;
+use kinetostat_online::{Command, Input, Mode, Plan, Reason};
 use kinetostat_testing::Worst;
 
 use crate::common::{Random, feed_forward, joints, next, preset, wide};
@@ -170,6 +174,108 @@ fn holds(names: &[&str], states: usize, force: f64) {
 #[test]
 fn serial_machines_are_corrected_as_off_line() {
     holds(&SERIAL, STATES, 800.0);
+}
+
+/// Slides that carry a bilinear gear, links of all conventions with masses, a preloaded spring and a platform with a weight and a spring of its own.
+fn mixture() -> Mechanism {
+    let bar = BeamSection::tube(2.1e11, 8.1e10, 0.05, 0.04); // Pa, m
+    let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e6);
+    let gear = SpringLaw::Bilinear(BilinearLaw {
+        stiffness: 5e4,
+        beyond: 2e5,
+        knee: 2e-3,
+    });
+    let link = |convention| {
+        let spec = LinkSpec::beam(bar, 0.4).segments(2).convention(convention);
+        spec.with_mass(LinkMass::of_section(&bar, 7850.0))
+    };
+    let chain = Chain::builder("mixture")
+        .actuator("x", slide(Vector3::x()))
+        .actuator("y", slide(Vector3::y()))
+        .actuator("z", slide(Vector3::z()))
+        .spring_with_law("gear", MotionKind::Revolute, Vector3::z(), gear, 0.0)
+        .link_with("one", &link(LinkConvention::Exponential))
+        .spring("preloaded", MotionKind::Revolute, Vector3::y(), 1e5, 1e-3)
+        .link_with("two", &link(LinkConvention::ConstantStrain))
+        .body(
+            "head",
+            12.0,
+            vector![0.05, 0.02, 0.0],
+            nalgebra::Matrix3::zeros(),
+        )
+        .build()
+        .unwrap();
+    let mut machine = Mechanism::builder("mixture").gravity(vector![0.0, 0.0, -9.81]);
+    let head = Platform {
+        mass: 20.0,
+        centre_of_mass: vector![0.1, 0.0, -0.05],
+        ..Platform::new("tool", Pose::translation(0.8, 0.0, 0.0))
+    };
+    let tool = machine.platform(head);
+    let law = LengthLaw::Linear {
+        stiffness: 800.0,
+        free_length: 0.5,
+        preload: 0.0,
+    };
+    let balancer = PlatformLoad::strut(
+        Anchor::Base(vector![0.8, 0.1, 1.0]),
+        Anchor::on_platform(tool, Vector3::zeros()),
+        law,
+    );
+    let machine = machine
+        .limb(Limb::between("mixture", 0, tool, chain))
+        .platform_load(balancer);
+    machine.build().unwrap()
+}
+
+#[test]
+fn every_law_of_springs_and_loads_is_the_core_s() {
+    for directions in [Directions::POSITION, Directions::NONE.with(0).with(2)] {
+        let (worst, _) = compare(&mixture(), directions, 300, 400.0);
+        assert!(worst.samples() > 600 && worst.holds(1e-9), "{worst:?}");
+    }
+}
+
+#[test]
+fn the_joints_lead_to_the_pose_that_is_sent() {
+    for name in ["heavy_6r", "scara", "puu3", "hexapod"] {
+        let mechanism = preset(name);
+        let mut settings = feed_forward();
+        settings.directions = Directions::ALL;
+        let plan = Plan::compile(&mechanism, &settings).unwrap();
+        let home = mechanism
+            .posture(&mechanism.platforms()[mechanism.tool()].home)
+            .unwrap();
+        let (mut state, mut input) = (plan.start().unwrap(), Input::default());
+        input.joints = joints(&home.commands());
+        input.programmed = Wrench::new(vector![60.0, -40.0, 20.0], Vector3::zeros());
+        let mut output = next(&plan, &mut state, &mut input);
+        for cycle in 0..1000 {
+            input.command = if cycle == 20 {
+                Command::Arm
+            } else {
+                Command::None
+            };
+            output = next(&plan, &mut state, &mut input);
+        }
+        assert_eq!(
+            (output.mode, output.finding),
+            (Mode::Active, Reason::None),
+            "{name}"
+        );
+        assert!(output.correction.linear().norm() > 1e-6 && !output.clamped.joints);
+        let target = moved(home.target(), &output.correction);
+        let exact = mechanism
+            .posture(PostureRequest::pose(&target).near(&home))
+            .unwrap();
+        let mut worst = Worst::new();
+        for (k, command) in exact.commands().into_iter().enumerate() {
+            worst.add_at(input.joints[k] + output.joints[k] - command, || {
+                format!("{name}, joint {k}")
+            });
+        }
+        assert!(worst.holds(1e-9), "{worst:?}");
+    }
 }
 
 #[test]
