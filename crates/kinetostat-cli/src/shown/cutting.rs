@@ -16,13 +16,12 @@ use crate::vibration::subject::{limits, refused};
 /// Frequencies and spindle speeds of one request.
 const MOST: usize = 2000;
 
-/// The damping that is asked for, of all modes; else that of the model.
-fn damping(ratio: Option<f64>, of_model: &Damping, who: &str) -> Answer<Damping> {
-    let args = DampingArgs {
+/// A ratio of all modes as the options state it; without one the model's damping counts.
+fn stated(ratio: Option<f64>) -> DampingArgs {
+    DampingArgs {
         damping: ratio.into_iter().collect(),
         ..DampingArgs::default()
-    };
-    damped(&args, of_model, who)
+    }
 }
 
 /// Displacement of the tip by a vibrating force along the same axis.
@@ -39,7 +38,7 @@ pub(crate) fn response_of(
             "frequencies rise from 0 to at most 1e6 Hz, 2 to {MOST} of them"
         )));
     }
-    let damping = damping(request.damping_ratio, of_model, "responses need")?;
+    let damping = stated(request.damping_ratio).law(of_model)?;
     let machine = VibratingMachine::at(posture, wrench, &Held::nothing()).map_err(refused)?;
     let step = (high - low) / (request.count - 1) as f64;
     let frequencies_hz: Vec<f64> = (0..request.count).map(|i| low + step * i as f64).collect();
@@ -89,7 +88,7 @@ pub(crate) fn lobes_of(
         teeth: request.teeth,
         ..LobeCutArgs::default()
     };
-    let damping = damping(request.damping_ratio, of_model, "lobes need")?;
+    let damping = damped(&stated(request.damping_ratio), of_model, "lobes need")?;
     let machine = VibratingMachine::at(posture, wrench, &Held::nothing()).map_err(refused)?;
     let lobes = args.lobes(posture.target(), &machine, &damping)?;
     let mut warnings = limits(&machine, posture);
