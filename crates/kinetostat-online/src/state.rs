@@ -98,6 +98,8 @@ pub(crate) struct JointCorrection {
 
 /// Newton steps of one cycle.
 const STEPS: usize = 3;
+/// Distance from the pose below which no further step is taken, as a share of the natural length: the step from there is exact.
+const PRECISION: f64 = 1e-7;
 
 impl JointCorrection {
     fn new(plan: &Plan) -> Self {
@@ -128,7 +130,10 @@ impl JointCorrection {
             let mut found = is_zero || limb.factor(own);
             if found && !is_zero {
                 for _ in 0..STEPS {
-                    limb.follow(own, &pose);
+                    let tip = limb.tip(own);
+                    if limb.follow(own, &pose, &tip).0 < PRECISION * own.length {
+                        break;
+                    }
                 }
                 found = limb.is_near(own, &joints[own.joints.clone()]);
             }
