@@ -22,7 +22,7 @@ pub struct State {
     pub(crate) filter: LowPassState,
     pub(crate) supervisor: Supervisor,
     pub(crate) probe: Probe,
-    /// What is sent is, or was last, the request of a probe.
+    /// True while the request of a probe is sent or taken back.
     pub(crate) is_probing: bool,
     /// Correction that the model wanted last, and what it leaves over.
     pub(crate) wanted: Twist,

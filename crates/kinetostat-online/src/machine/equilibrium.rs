@@ -230,7 +230,7 @@ impl MachineState {
     }
 }
 
-/// How far the tip of a limb is from its place on the platform once its springs have taken their step, the motion of the tip by
+/// Distance of a limb's tip from its place on the platform once its springs have taken their step, the motion of the tip by
 /// the tool's, and the torques of its passive joints.
 fn limb_residual(
     limb: &mut LimbState,
