@@ -22,7 +22,7 @@ pub struct SampledLoop {
     pub kappa: f64,
     /// First natural frequency of the machine, Hz.
     pub mode_hz: f64,
-    /// Its damping ratio.
+    /// Damping ratio of the mode.
     pub damping: f64,
     /// Time constant of the drive, s.
     pub lag: f64,

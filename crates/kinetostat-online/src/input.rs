@@ -42,7 +42,7 @@ pub struct Input {
     pub command: Command,
 }
 
-/// What was held back in a cycle.
+/// Limits that held the correction back in a cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Clamped {
     /// Size of the position's correction.
@@ -64,11 +64,11 @@ pub struct Output {
     /// Linear part in m at the tool's reference point, angular part the rotation vector in rad, both in base axes. It points against the
     /// deflection. Zero in `Shadow` and `Off`.
     pub correction: Twist,
-    /// The same correction as a change of the joints (m or rad), first joints of the array.
+    /// Correction as a change of the joints (m or rad), the first ones of the array.
     pub joints: [f64; MOST_JOINTS],
     /// The correction that the model wants, before clamps and limits of rate; also in `Shadow`.
     pub wanted: Twist,
-    /// What stays of the deflection where the model's correction is commanded: directions without actuators.
+    /// Deflection that remains under the model's correction, in directions without actuators.
     pub left_over: Twist,
     /// State of the machine of states.
     pub mode: Mode,
@@ -76,7 +76,7 @@ pub struct Output {
     pub cause: Reason,
     /// Finding of this cycle.
     pub finding: Reason,
-    /// What was held back.
+    /// Limits that held the correction back.
     pub clamped: Clamped,
     /// Passes of the equilibrium.
     pub passes: u32,

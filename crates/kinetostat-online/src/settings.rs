@@ -54,7 +54,7 @@ pub struct Sensor {
     pub tool_from_sensor: Pose,
     /// Mass of what hangs beyond the sensor, kg.
     pub mass: f64,
-    /// Its centre of mass, sensor axes, m.
+    /// Centre of that mass, sensor axes, m.
     pub centre_of_mass: Vector3<f64>,
     /// Gravity, base axes, m/s^2; given here because a mechanism without own loads has none.
     pub gravity: Vector3<f64>,

@@ -22,7 +22,7 @@ pub struct State {
     pub(crate) filter: LowPassState,
     pub(crate) supervisor: Supervisor,
     pub(crate) probe: Probe,
-    /// What is sent is, or was last, the request of a probe.
+    /// True while the request of a probe is sent or taken back.
     pub(crate) is_probing: bool,
     /// Correction that the model wanted last, and what it leaves over.
     pub(crate) wanted: Twist,
@@ -98,6 +98,8 @@ pub(crate) struct JointCorrection {
 
 /// Newton steps of one cycle.
 const STEPS: usize = 3;
+/// Distance from the pose below which no further step is taken, as a share of the natural length: the step from there is exact.
+const PRECISION: f64 = 1e-7;
 
 impl JointCorrection {
     fn new(plan: &Plan) -> Self {
@@ -128,7 +130,10 @@ impl JointCorrection {
             let mut found = is_zero || limb.factor(own);
             if found && !is_zero {
                 for _ in 0..STEPS {
-                    limb.follow(own, &pose);
+                    let tip = limb.tip(own);
+                    if limb.follow(own, &pose, &tip).0 < PRECISION * own.length {
+                        break;
+                    }
                 }
                 found = limb.is_near(own, &joints[own.joints.clone()]);
             }

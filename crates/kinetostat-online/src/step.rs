@@ -127,7 +127,7 @@ fn supervise(plan: &Plan, state: &mut State, input: &Input, finding: Reason) {
     };
 }
 
-/// What one cycle finds out.
+/// Results of one cycle.
 #[derive(Default)]
 struct Cycle {
     finding: Reason,

@@ -192,10 +192,11 @@ impl MachineState {
         let (motion, _) = limb.spring_step(own);
         limb.take_step(own, &Vector6::zeros(), &[0.0; MOST_PASSIVE]);
         self.tool = moved(&self.tool, &Twist(motion).shifted(&-arm));
-        let nominal = limb.joints.tip(own) * own.platform_from_tip.inverse();
+        let tip = limb.joints.tip(own);
+        let nominal = tip * own.platform_from_tip.inverse();
         let (deflection, _) = plan.split(&pose_residual(&self.tool, &nominal));
         self.target = moved(&self.forward.pose, &-deflection);
-        let (off, _) = limb.joints.follow(own, &self.target);
+        let (off, _) = limb.joints.follow(own, &self.target, &tip);
         off.max(size(&motion, plan.length))
     }
 
@@ -229,7 +230,7 @@ impl MachineState {
     }
 }
 
-/// How far the tip of a limb is from its place on the platform once its springs have taken their step, the motion of the tip by
+/// Distance of a limb's tip from its place on the platform once its springs have taken their step, the motion of the tip by
 /// the tool's, and the torques of its passive joints.
 fn limb_residual(
     limb: &mut LimbState,

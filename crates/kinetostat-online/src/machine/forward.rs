@@ -109,7 +109,7 @@ impl Forward {
     }
 }
 
-/// How far the tip of a limb is from its place on the platform, and the motion of that place by the platform's, in units of length.
+/// Distance of a limb's tip from its place on the platform, and the motion of that place by the platform's, in units of length.
 fn closure(own: &mut Joints, limb: &LimbPlan, pose: &Pose) -> (Vector6<f64>, Matrix6<f64>) {
     let place = pose * limb.platform_from_tip;
     let off = limb.in_length(pose_residual(&place, &own.tip(limb)).0);

@@ -108,10 +108,10 @@ impl Joints {
         share
     }
 
-    /// One step towards a target of the platform. Returns how far the tip was off, in units of length, and the share taken.
-    pub(crate) fn follow(&mut self, plan: &LimbPlan, target: &Pose) -> (f64, f64) {
-        let tip = self.tip(plan);
-        let off = plan.in_length(pose_residual(&(target * plan.platform_from_tip), &tip).0);
+    /// One step towards a target of the platform, from the present pose of the tip. Returns how far the tip was off, in units of
+    /// length, and the share taken.
+    pub(crate) fn follow(&mut self, plan: &LimbPlan, target: &Pose, tip: &Pose) -> (f64, f64) {
+        let off = plan.in_length(pose_residual(&(target * plan.platform_from_tip), tip).0);
         self.answer(&off);
         (off.norm(), self.take_steps(plan))
     }

@@ -72,7 +72,8 @@ impl LimbState {
 
     /// One step of the joints towards the target, and the actual chain with them. Returns how far the tip was off, m.
     pub(crate) fn follow(&mut self, plan: &LimbPlan, target: &Pose) -> f64 {
-        let (off, share) = self.joints.follow(plan, target);
+        let tip = self.joints.tip(plan);
+        let (off, share) = self.joints.follow(plan, target, &tip);
         for (i, step) in plan.passive.iter().zip(&self.joints.step) {
             self.bent[*i] += share * step;
         }

@@ -1,4 +1,4 @@
-//! What never changes of a machine: its limbs, the body that carries the tool, and the directions that are corrected.
+//! Constant part of a machine: its limbs, the body that carries the tool, and the directions that are corrected.
 
 use std::ops::Range;
 
@@ -20,7 +20,7 @@ pub(crate) struct LimbPlan {
     pub platform_from_tip: Pose,
     /// Coordinates that are passive joints.
     pub passive: Vec<usize>,
-    /// Its actuators among the joints of the machine.
+    /// Range of its actuators among the joints of the machine.
     pub joints: Range<usize>,
     /// Natural length (m, of the machine) and stiffness (N/m).
     pub length: f64,

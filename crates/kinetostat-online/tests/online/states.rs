@@ -94,6 +94,32 @@ fn the_joints_carry_the_correction() {
 }
 
 #[test]
+fn slow_joints_lag_behind_and_are_waited_for_at_the_end() {
+    let mut settings = feed_forward();
+    settings.limits.joint_speed = 1e-3; // 1 um in a cycle
+    let mut run = Run::new(&settings);
+    run.command(Command::Arm);
+    let mut last = run.next();
+    for cycle in 0..150 {
+        let output = run.next();
+        assert!((output.joints[0] - last.joints[0]).abs() <= 1e-6 * (1.0 + 1e-9));
+        assert!(
+            output.clamped.joints || !(10..90).contains(&cycle),
+            "cycle {cycle}"
+        );
+        last = output;
+    }
+    assert!((last.joints[0] + 1e-4).abs() < 1e-12);
+    run.command(Command::Stop);
+    let cycles = run.until_not(Mode::Ramp);
+    assert!((95..110).contains(&cycles), "{cycles} cycles of ramp");
+    assert_eq!(
+        (run.state.mode(), run.next().joints),
+        (Mode::Off, [0.0; 16])
+    );
+}
+
+#[test]
 fn arming_is_refused_while_something_is_wrong() {
     let mut run = Run::plain();
     run.input.joints[1] = f64::INFINITY;
