@@ -264,7 +264,7 @@ pub(crate) fn turned(
     let (result, parts, found) =
         with_task(aim, machine, setting, &read, forces.as_ref(), |task| {
             let task = &match task.places {
-                0 if setting.targets.report.is_some() => Task {
+                0 if setting.targets.report.is_some() || setting.targets.pdf.is_some() => Task {
                     places: SHOWN,
                     ..task.clone()
                 },
