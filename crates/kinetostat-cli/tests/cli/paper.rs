@@ -313,6 +313,12 @@ fn number_and_revision_of_the_part_stand_in_reports_and_result() {
             );
         }
     }
+    // The machine is drawn without a report on a page, too.
+    let words = "compensate job.toml --pdf alone.pdf --force-overwrite";
+    run(here, &words.split(' ').collect::<Vec<_>>()).answered();
+    if let Some(lines) = lines_of_pdf(&here.join("alone.pdf")) {
+        assert!(lines.iter().any(|line| line.contains("Themachineatline")));
+    }
     let said = run(here, &["check", "job.toml", "--part-number", "two\nlines"]);
     assert_eq!(said.code, 1);
     assert!(said.err.contains("--part-number"), "{}", said.err);
