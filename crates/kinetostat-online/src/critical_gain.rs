@@ -53,7 +53,7 @@ impl SampledLoop {
         for k in 2..=POINTS {
             let (now, next) = (angle(k), at(angle(k)));
             if (value.im < 0.0) != (next.im < 0.0) && value.re.max(next.re) > 0.0 {
-                largest = largest.max(crossing(&at, before, now));
+                largest = kinetostat::number::larger(largest, crossing(&at, before, now));
             }
             (before, value) = (now, next);
         }

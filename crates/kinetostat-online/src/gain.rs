@@ -55,7 +55,7 @@ impl ForceGain {
         };
         for (ratio, force) in ratios.iter().zip(&forces) {
             let own = ratio / (1.0 + ratio);
-            gain.loop_gain = gain.loop_gain.max(own);
+            gain.loop_gain = kinetostat::number::larger(gain.loop_gain, own);
             if own > LARGEST_LOOP_GAIN {
                 let moved = compliance * force;
                 let share = 1.0 - LARGEST_LOOP_GAIN / own;

@@ -83,7 +83,7 @@ impl Probe {
         } else {
             f64::INFINITY
         };
-        self.farthest = self.farthest.max(size);
+        self.farthest = kinetostat::number::larger(self.farthest, size);
         self.last = size;
         if self.farthest > 2.0 * amplitude {
             return (0.0, Verdict::Relative);

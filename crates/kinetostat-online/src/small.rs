@@ -27,7 +27,11 @@ impl<const N: usize> Lu<N> {
         self.n = n;
         self.row = std::array::from_fn(|i| i);
         self.a = SMatrix::from_fn(|i, j| if i < n && j < n { entry(i, j) } else { 0.0 });
-        let least = SMALLEST_PIVOT * self.a.iter().fold(0.0, |most, x| x.abs().max(most));
+        let least = SMALLEST_PIVOT
+            * self
+                .a
+                .iter()
+                .fold(0.0, |most, x| kinetostat::number::larger(most, x.abs()));
         let a = &mut self.a;
         for k in 0..n {
             let column = (k..n).map(|i| (i, a[(i, k)].abs()));

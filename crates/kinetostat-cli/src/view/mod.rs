@@ -4,6 +4,8 @@
 //! its results as one file.
 
 #[cfg(feature = "view")]
+mod asked;
+#[cfg(feature = "view")]
 mod dropped;
 #[cfg(feature = "view")]
 mod openapi;

@@ -9,8 +9,8 @@ use crate::shown::answer::{
     ModesOfState, Nothing, PathAnswer, ResponseOfState, ResponseRequest, StateAnswer, StateRequest,
     StockAtPlace, StockRequest,
 };
+use crate::view::asked::{StartAnswer, StartRequest};
 use crate::view::dropped::OpenRequest;
-use crate::view::served::{StartAnswer, StartRequest};
 
 /// Schema of a request or an answer.
 type Made = fn(&mut SchemaGenerator) -> Schema;

@@ -5,8 +5,6 @@ use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
 use kinetostat_diagnostic::ErrorCode;
 use kinetostat_view::{Answers, OPEN, Refused};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 use crate::compensate::{self, arguments::CompensateArgs};
 use crate::files::outputs::Existing;
@@ -15,6 +13,7 @@ use crate::shown::session::{Session, answered};
 use crate::start::interview::Interview;
 use crate::ui::failure::{Answer, Code, Failing};
 use crate::ui::given::Given;
+use crate::view::asked::{AskedQuestion, GivenAnswer, StartAnswer, StartRequest};
 use crate::view::dropped::{OpenRequest, session_of};
 use crate::view::openapi::openapi;
 
@@ -23,49 +22,6 @@ use crate::view::openapi::openapi;
 pub(super) struct Served {
     session: RwLock<Option<Arc<Session>>>,
     interview: Mutex<Option<Interview>>,
-}
-
-/// What the page does with the questions of `start`; nothing of it asks for the next one alone.
-#[derive(Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub(super) struct StartRequest {
-    /// Answer to the question that is asked.
-    answer: Option<String>,
-    /// Back to the question before.
-    back: bool,
-    /// Write the files and compensate.
-    write: bool,
-}
-
-/// Where the questions stand.
-#[derive(Default, Serialize, JsonSchema)]
-pub(super) struct StartAnswer {
-    /// None: all is known, or this page does not ask.
-    question: Option<AskedQuestion>,
-    given: Vec<GivenAnswer>,
-    /// What was understood of the last answer.
-    said: Vec<String>,
-    /// Reason why the last answer was not taken, or the files were not written.
-    refused: Option<String>,
-    /// Files that were written; the machine stands behind the next question for it.
-    written: Vec<String>,
-}
-
-/// A question in words.
-#[derive(Serialize, JsonSchema)]
-struct AskedQuestion {
-    words: String,
-    help: String,
-    /// Taken for an empty answer.
-    usual: Option<String>,
-    choices: Vec<String>,
-}
-
-/// An answer that was taken.
-#[derive(Serialize, JsonSchema)]
-struct GivenAnswer {
-    words: String,
-    answer: String,
 }
 
 impl Served {

@@ -204,7 +204,7 @@ impl MachineState {
     fn platform(&mut self, plan: &MachinePlan, wrench: &Wrench) -> f64 {
         let mut joints_off = 0.0_f64;
         for (limb, own) in self.limbs.iter_mut().zip(&plan.limbs) {
-            joints_off = joints_off.max(limb.follow(own, &self.target));
+            joints_off = kinetostat::number::larger(joints_off, limb.follow(own, &self.target));
         }
         let mut unbalanced = self.load(plan, wrench).0;
         for (limb, own) in self.limbs.iter_mut().zip(&plan.limbs) {
@@ -220,7 +220,9 @@ impl MachineState {
             let (change, joints) = limb.hold(own, &(closure + shift * motion), &torques);
             limb.take_step(own, &change, &joints);
             let steps = joints.iter().chain(&limb.step).map(|x| x.abs());
-            largest = steps.fold(largest, |most, x| most.max(x * plan.length.min(1.0)));
+            largest = steps.fold(largest, |most, x| {
+                kinetostat::number::larger(most, x * plan.length.min(1.0))
+            });
         }
         self.tool = moved(&self.tool, &Twist(motion));
         let (off, _) = plan.split(&pose_residual(&self.forward.pose, &self.tool));

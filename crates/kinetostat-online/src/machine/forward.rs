@@ -99,7 +99,8 @@ impl Forward {
         let mut change = motion.norm();
         for (own, limb) in self.limbs.iter_mut().zip(&plan.limbs) {
             let (closure, shift) = closure(own, limb, &self.pose);
-            change = change.max(own.answer(&(closure + shift * motion)).norm());
+            change =
+                kinetostat::number::larger(change, own.answer(&(closure + shift * motion)).norm());
             own.take_steps(limb);
         }
         let turn = motion.fixed_rows::<3>(3) / plan.length;

@@ -96,7 +96,10 @@ impl Joints {
 
     /// Takes the steps, shortened alike where one is too long. Returns the share taken.
     pub(crate) fn take_steps(&mut self, plan: &LimbPlan) -> f64 {
-        let most = self.step.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let most = self
+            .step
+            .iter()
+            .fold(0.0_f64, |most, x| kinetostat::number::larger(most, x.abs()));
         let share = (LONGEST_STEP * plan.length.max(1.0) / most.max(f64::MIN_POSITIVE)).min(1.0);
         let n = self.coordinates.len();
         for (index, step) in self.indices.iter().zip(&self.step) {

@@ -309,3 +309,29 @@ impl<'a> Setter<'a> {
         }
     }
 }
+
+/// Largest height of a drawing.
+const TALLEST: f32 = 360.0;
+
+impl Setter<'_> {
+    /// A drawing as wide as the text, or as tall as it may be, with what it shows below it on the same page.
+    pub(super) fn picture(&mut self, svg: &str, shows: &str) {
+        let Some(picture) = Picture::read(self.letters, svg) else {
+            return;
+        };
+        let [width, height] = picture.size();
+        let most = TALLEST.min(HEIGHT - TOP - BOTTOM - 60.0);
+        let scale = ((RIGHT - LEFT) / width).min(most / height);
+        let size = [scale * width, scale * height];
+        self.y += 6.0;
+        self.room(size[1] + 24.0);
+        let x = LEFT + 0.5 * (RIGHT - LEFT - size[0]);
+        self.put(Mark::Picture {
+            at: [x, self.y],
+            size,
+            picture,
+        });
+        self.y += size[1] + 2.0;
+        self.caption(shows);
+    }
+}

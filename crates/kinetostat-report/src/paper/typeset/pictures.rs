@@ -7,11 +7,7 @@ use krilla::surface::Surface;
 use krilla_svg::{SurfaceExt, SvgSettings};
 use usvg::{Options, Tree};
 
-use crate::paper::typeset::layout::{BOTTOM, HEIGHT, LEFT, Mark, RIGHT, Setter, TOP};
 use crate::paper::typeset::letters::{BOLD, FAMILY, Letters, REGULAR};
-
-/// Largest height of a drawing.
-const TALLEST: f32 = 360.0;
 
 /// A drawing that was read.
 #[derive(Clone, Debug)]
@@ -40,6 +36,12 @@ impl Picture {
             .map(|tree| Self(Arc::new(tree)))
     }
 
+    /// Width and height.
+    pub(super) fn size(&self) -> [f32; 2] {
+        let size = self.0.size();
+        [size.width(), size.height()]
+    }
+
     pub(super) fn draw(&self, surface: &mut Surface<'_>, [x, y]: [f32; 2], size: [f32; 2]) {
         let Some(size) = Size::from_wh(size[0], size[1]) else {
             return;
@@ -48,28 +50,5 @@ impl Picture {
         // None would be of a drawing without a size.
         let _ = surface.draw_svg(&self.0, size, SvgSettings::default());
         surface.pop();
-    }
-}
-
-impl Setter<'_> {
-    /// A drawing as wide as the text, or as tall as it may be, with what it shows below it on the same page.
-    pub(super) fn picture(&mut self, svg: &str, shows: &str) {
-        let Some(picture) = Picture::read(self.letters, svg) else {
-            return;
-        };
-        let own = picture.0.size();
-        let most = TALLEST.min(HEIGHT - TOP - BOTTOM - 60.0);
-        let scale = ((RIGHT - LEFT) / own.width()).min(most / own.height());
-        let size = [scale * own.width(), scale * own.height()];
-        self.y += 6.0;
-        self.room(size[1] + 24.0);
-        let x = LEFT + 0.5 * (RIGHT - LEFT - size[0]);
-        self.put(Mark::Picture {
-            at: [x, self.y],
-            size,
-            picture,
-        });
-        self.y += size[1] + 2.0;
-        self.caption(shows);
     }
 }
