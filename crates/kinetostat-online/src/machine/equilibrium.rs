@@ -221,7 +221,7 @@ impl MachineState {
             limb.take_step(own, &change, &joints);
             let steps = joints.iter().chain(&limb.step).map(|x| x.abs());
             largest = steps.fold(largest, |most, x| {
-                kinetostat::number::larger(most, x * plan.length.min(1.0))
+                kinetostat::number::larger(most, x * kinetostat::number::smaller(plan.length, 1.0))
             });
         }
         self.tool = moved(&self.tool, &Twist(motion));

@@ -272,7 +272,10 @@ fn acceleration_is_limited_outside_the_probe() {
         let limits = &plan.settings().limits;
         let most = limits.acceleration * 1e-6 * (1.0 + 1e-9) + 1e-18;
         assert!(change.linear().norm() <= most, "{cycle}: {change:?}");
-        fastest = fastest.max((output.correction - last[1].correction).linear().norm());
+        fastest = kinetostat::number::larger(
+            fastest,
+            (output.correction - last[1].correction).linear().norm(),
+        );
         last = [last[1], output];
     }
     let most = plan.settings().limits.speed * 1e-3;
@@ -336,7 +339,9 @@ fn nothing_is_allocated_in_a_cycle() {
                 }
                 let output = assert_no_alloc(|| next(&plan, &mut state, &mut input));
                 active += usize::from(output.mode == Mode::Active);
-                most = most.max(output.passes);
+                if output.passes > most {
+                    most = output.passes;
+                }
             }
             assert_eq!(violation_count(), 0, "{name}, settings {kind}");
             assert!(

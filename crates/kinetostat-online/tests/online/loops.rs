@@ -236,9 +236,12 @@ fn ring(beta: f64, kappa: f64, cutoff: f64, stated: f64) -> (f64, f64, f64) {
         }
     }
     let swing = |part: &[f64]| {
-        let (low, high) = part
-            .iter()
-            .fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(*x), b.max(*x)));
+        let (low, high) = part.iter().fold((f64::MAX, f64::MIN), |(a, b), x| {
+            (
+                kinetostat::number::smaller(a, *x),
+                kinetostat::number::larger(b, *x),
+            )
+        });
         high - low
     };
     (

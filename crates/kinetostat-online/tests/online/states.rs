@@ -405,7 +405,7 @@ fn probed(delay: usize, takes: impl Fn(f64, f64) -> f64) -> (Output, f64) {
         run.input.observed = Some([0.0, 0.0, shown[0]]);
         let output = run.next();
         offset = takes(offset, output.correction.linear().z);
-        farthest = farthest.max(f64::abs(offset));
+        farthest = kinetostat::number::larger(farthest, f64::abs(offset));
         shown.rotate_left(1);
         shown[delay - 1] = offset;
         if output.mode != Mode::Armed && output.mode != Mode::Ramp {
